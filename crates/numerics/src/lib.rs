@@ -1,1 +1,8 @@
-//! (crate numerics)
+//! Mathematics without mechanics: linear solves, rank decisions and variable-order integration.
+//!
+//! Nothing in this crate knows what a joint is. The mechanics crate states its equations through
+//! [`bdf::System`] and assembles its Newton matrix in a [`linear::Matrix`].
+
+pub mod bdf;
+pub mod linear;
+pub mod rank;

@@ -1,0 +1,176 @@
+//! The past of a solution as divided differences.
+
+/// Highest order of the backward differentiation formulas in use; beyond 5 they are hardly stable.
+pub const HIGHEST_ORDER: usize = 5;
+/// Nodes kept: order + 2, so that the error of the next higher order can be estimated.
+const NODES: usize = HIGHEST_ORDER + 2;
+
+/// Past values `y(t_0), y(t_1), …` (newest first) in Newton's form: `difference(j)` is the divided
+/// difference `y[t_0, …, t_j]`.
+///
+/// A start from a value and a slope is the double node `t_0 = t_1`, whose divided difference is
+/// the slope. So the first step is already of second order, and no special starting formula is
+/// needed.
+#[derive(Clone, Debug)]
+pub struct History {
+    size: usize,
+    times: [f64; NODES],
+    count: usize,
+    /// `NODES` vectors of `size` values.
+    differences: Vec<f64>,
+    work: Vec<f64>,
+}
+
+impl History {
+    /// An empty past for `size` values.
+    #[must_use]
+    pub fn new(size: usize) -> Self {
+        Self {
+            size,
+            times: [0.0; NODES],
+            count: 0,
+            differences: vec![0.0; size * NODES],
+            work: vec![0.0; size],
+        }
+    }
+
+    /// Forgets the past and starts from a value and a slope.
+    pub fn start(&mut self, time: f64, value: &[f64], slope: &[f64]) {
+        self.times = [time; NODES];
+        self.count = 2;
+        self.differences[..self.size].copy_from_slice(value);
+        self.differences[self.size..2 * self.size].copy_from_slice(slope);
+    }
+
+    /// Appends a value at a later time.
+    pub fn push(&mut self, time: f64, value: &[f64]) {
+        let kept = (self.count + 1).min(NODES);
+        self.work.copy_from_slice(value);
+        // `work` runs through the new differences; each replaces the old one of its place, which
+        // the next one still needs.
+        for j in 0..kept {
+            let row = j * self.size..(j + 1) * self.size;
+            let last = j + 1 == kept;
+            let span = time - self.times[j.min(NODES - 1)];
+            for (new, old) in self.work.iter_mut().zip(&mut self.differences[row]) {
+                let next = if last { 0.0 } else { (*new - *old) / span };
+                *old = *new;
+                *new = next;
+            }
+        }
+        self.times.copy_within(0..NODES - 1, 1);
+        self.times[0] = time;
+        self.count = kept;
+    }
+
+    /// Number of nodes, a double one counted twice.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Number of values.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Newest time.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.times[0]
+    }
+
+    /// Time of node `j`, newest first.
+    #[must_use]
+    pub fn node(&self, j: usize) -> f64 {
+        self.times[j]
+    }
+
+    /// Divided difference over the nodes `0..=j`.
+    #[must_use]
+    pub fn difference(&self, j: usize) -> &[f64] {
+        &self.differences[j * self.size..(j + 1) * self.size]
+    }
+
+    /// `Π_{i<j} (time − t_i)`: what multiplies difference `j` in Newton's form.
+    #[must_use]
+    pub fn product(&self, j: usize, time: f64) -> f64 {
+        self.times[..j].iter().map(|node| time - node).product()
+    }
+
+    /// `γ` of the formula of `order` at `time`: the reciprocal of `Σ_{i<order} 1/(time − t_i)`.
+    #[must_use]
+    pub fn gamma(&self, order: usize, time: f64) -> f64 {
+        1.0 / self.times[..order]
+            .iter()
+            .map(|node| 1.0 / (time - node))
+            .sum::<f64>()
+    }
+
+    /// Value at `time` of the polynomial through the newest `degree + 1` nodes.
+    pub fn evaluate(&self, degree: usize, time: f64, value: &mut [f64]) {
+        value.copy_from_slice(self.difference(degree));
+        for j in (0..degree).rev() {
+            let span = time - self.times[j];
+            for (v, d) in value.iter_mut().zip(self.difference(j)) {
+                *v = *v * span + d;
+            }
+        }
+    }
+
+    /// The formula's `ŷ = w − γ ẇ` at `time`, with `w` through the newest `order` nodes.
+    pub fn formula(&self, order: usize, time: f64, gamma: f64, result: &mut [f64]) {
+        // Newton's form of w and its slope share the products; both are linear in the differences.
+        let mut product = 1.0;
+        let mut slope = 0.0;
+        result.fill(0.0);
+        for j in 0..order {
+            let weight = product - gamma * slope;
+            for (r, d) in result.iter_mut().zip(self.difference(j)) {
+                *r += weight * d;
+            }
+            let span = time - self.times[j];
+            slope = slope * span + product;
+            product *= span;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_are_reproduced_with_their_slopes() {
+        let f = |t: f64| 2.0 + t - 3.0 * t * t + 0.5 * t * t * t;
+        let slope = |t: f64| 1.0 - 6.0 * t + 1.5 * t * t;
+        let mut history = History::new(1);
+        history.start(0.1, &[f(0.1)], &[slope(0.1)]);
+        for t in [0.15, 0.3, 0.35] {
+            history.push(t, &[f(t)]);
+        }
+        let t = 0.5;
+        let mut value = [0.0];
+        history.evaluate(3, t, &mut value);
+        assert!((value[0] - f(t)).abs() < 1e-13);
+        // Order 3 through the new value and three past ones is exact for cubics.
+        let gamma = history.gamma(3, t);
+        let mut past = [0.0];
+        history.formula(3, t, gamma, &mut past);
+        assert!(((f(t) - past[0]) / gamma - slope(t)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_double_node_gives_the_trapezoidal_rule() {
+        let mut history = History::new(1);
+        history.start(0.0, &[1.0], &[2.0]);
+        let gamma = history.gamma(2, 0.1);
+        let mut past = [0.0];
+        history.formula(2, 0.1, gamma, &mut past);
+        // y1 = y0 + h/2 (slope0 + slope1)
+        let slope1 = 5.0;
+        let y1 = past[0] + gamma * slope1;
+        assert!((y1 - (1.0 + 0.05 * (2.0 + 5.0))).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,159 @@
+//! A square sparse matrix that is assembled again and again in the same order.
+
+/// Sparse square matrix, compressed by rows.
+///
+/// Elements add their entries with [`Matrix::add`]. The first assembly records which entry each
+/// call touches; [`Matrix::compress`] then fixes the pattern, and every later assembly must make
+/// the same calls in the same order (values may differ, zeros included), so that an addition costs
+/// one indexed store.
+///
+/// ```
+/// let mut a = numerics::linear::Matrix::new(2);
+/// for _ in 0..2 {
+///     a.start();
+///     a.add(0, 0, 1.0);
+///     a.add(1, 1, 2.0);
+///     a.add(0, 0, 3.0);
+///     a.compress();
+/// }
+/// assert_eq!(a.values(), &[4.0, 2.0]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    size: usize,
+    /// Row and column of each call, in order; kept to check the order in debug builds.
+    calls: Vec<(u32, u32)>,
+    /// Place in `values` that each call adds to.
+    slots: Vec<u32>,
+    next: usize,
+    compressed: bool,
+    row_starts: Vec<usize>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+    /// Values in call order, before the pattern is known.
+    recorded: Vec<f64>,
+}
+
+impl Matrix {
+    /// An empty matrix of `size` rows, ready to record its first assembly.
+    #[must_use]
+    pub fn new(size: usize) -> Self {
+        Self {
+            size,
+            calls: Vec::new(),
+            slots: Vec::new(),
+            next: 0,
+            compressed: false,
+            row_starts: vec![0; size + 1],
+            columns: Vec::new(),
+            values: Vec::new(),
+            recorded: Vec::new(),
+        }
+    }
+
+    /// Number of rows and columns.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Begins an assembly: all values become zero.
+    pub fn start(&mut self) {
+        self.next = 0;
+        self.values.fill(0.0);
+        if !self.compressed {
+            self.calls.clear();
+            self.recorded.clear();
+        }
+    }
+
+    /// Adds `value` to the entry at `row`, `column`.
+    #[inline]
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        if self.compressed {
+            debug_assert_eq!(
+                self.calls[self.next],
+                (row as u32, column as u32),
+                "an assembly must repeat the calls of the first one"
+            );
+            self.values[self.slots[self.next] as usize] += value;
+        } else {
+            self.calls.push((row as u32, column as u32));
+            self.recorded.push(value);
+        }
+        self.next += 1;
+    }
+
+    /// Ends an assembly; the first time it fixes the pattern.
+    pub fn compress(&mut self) {
+        if self.compressed {
+            debug_assert_eq!(self.next, self.calls.len());
+            return;
+        }
+        let mut order: Vec<usize> = (0..self.calls.len()).collect();
+        order.sort_by_key(|&k| self.calls[k]);
+        self.slots = vec![0; self.calls.len()];
+        self.row_starts.fill(0);
+        let mut last = None;
+        for k in order {
+            let (row, column) = self.calls[k];
+            if last != Some((row, column)) {
+                last = Some((row, column));
+                self.columns.push(column);
+                self.row_starts[row as usize + 1] += 1;
+            }
+            self.slots[k] = (self.columns.len() - 1) as u32;
+        }
+        for row in 0..self.size {
+            self.row_starts[row + 1] += self.row_starts[row];
+        }
+        self.values = vec![0.0; self.columns.len()];
+        for (k, &slot) in self.slots.iter().enumerate() {
+            self.values[slot as usize] += self.recorded[k];
+        }
+        self.recorded = Vec::new();
+        self.compressed = true;
+    }
+
+    /// First entry of each row in [`Matrix::columns`], and one past the last.
+    #[must_use]
+    pub fn row_starts(&self) -> &[usize] {
+        &self.row_starts
+    }
+
+    /// Column of every entry, row by row, ascending in a row.
+    #[must_use]
+    pub fn columns(&self) -> &[u32] {
+        &self.columns
+    }
+
+    /// Value of every entry, in the order of [`Matrix::columns`].
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// `y = A x`.
+    ///
+    /// # Panics
+    /// When a slice is shorter than the matrix.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        for row in 0..self.size {
+            y[row] = (self.row_starts[row]..self.row_starts[row + 1])
+                .map(|k| self.values[k] * x[self.columns[k] as usize])
+                .sum();
+        }
+    }
+
+    /// The matrix as full row-major storage, for tests and reports.
+    #[must_use]
+    pub fn to_dense(&self) -> Vec<f64> {
+        let mut full = vec![0.0; self.size * self.size];
+        for row in 0..self.size {
+            for k in self.row_starts[row]..self.row_starts[row + 1] {
+                full[row * self.size + self.columns[k] as usize] = self.values[k];
+            }
+        }
+        full
+    }
+}

@@ -1,0 +1,34 @@
+//! Matrices assembled in a fixed order, and their factorisation.
+//!
+//! [`Matrix`] is sparse with a pattern found once; [`SparseLu`] analyses that pattern once and
+//! refactors many times; [`DenseLu`] is the oracle the tests compare with and the solver of small
+//! full systems.
+
+mod dense;
+mod matrix;
+mod sparse;
+
+pub use dense::DenseLu;
+pub use matrix::Matrix;
+pub use sparse::SparseLu;
+
+/// A factorisation met no usable pivot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Singular {
+    /// A row of the caller's matrix that depends on the others.
+    pub row: usize,
+    /// A column of the caller's matrix that depends on the others.
+    pub column: usize,
+}
+
+impl std::fmt::Display for Singular {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "the matrix is singular at row {} and column {}",
+            self.row, self.column
+        )
+    }
+}
+
+impl std::error::Error for Singular {}
