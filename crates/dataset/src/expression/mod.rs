@@ -1,0 +1,117 @@
+//! Run-time expressions: the syntax tree of a FUNCTION argument.
+
+mod function;
+
+pub use function::{ArgumentKind, ElementKind, Function};
+
+use crate::source::Span;
+
+/// A run-time expression of a statement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    /// Its place.
+    pub span: Span,
+    /// Its tree.
+    pub root: Expr,
+    /// Its text on one line, without comments and continuation marks.
+    pub text: String,
+}
+
+/// A node of an expression. Trees are at most [`DEEPEST`] levels deep, so recursion is safe.
+///
+/// PI, DTOR and RTOD are numbers already; numbers with the suffix `D` are in radians.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expr {
+    /// A number.
+    Number(f64),
+    /// TIME.
+    Time,
+    /// MODE: the kind of the running analysis (4 = dynamics, 5 = statics, ...).
+    Mode,
+    /// Minus.
+    Negate(Box<Self>),
+    /// An operation with two operands.
+    Binary {
+        /// Which one.
+        operator: BinaryOperator,
+        /// Left operand.
+        left: Box<Self>,
+        /// Right operand.
+        right: Box<Self>,
+    },
+    /// A function call. The number of arguments fits the function; markers, elements and integer
+    /// arguments are [`Expr::Number`] with a whole number.
+    Call {
+        /// Which function.
+        function: Function,
+        /// Arguments in order; `IF(a: b, c, d)` has four.
+        arguments: Vec<Self>,
+        /// The place of the call.
+        span: Span,
+    },
+}
+
+/// The deepest tree that an expression may have.
+pub const DEEPEST: usize = 1000;
+
+impl Expr {
+    /// The number of a marker, element or integer argument.
+    ///
+    /// ```
+    /// use dataset::Expr;
+    /// assert_eq!(Expr::Number(12.0).as_id(), Some(12));
+    /// assert_eq!(Expr::Time.as_id(), None);
+    /// ```
+    #[must_use]
+    pub fn as_id(&self) -> Option<u32> {
+        match self {
+            Self::Number(value)
+                if value.fract() == 0.0 && (0.0..=4_294_967_295.0).contains(value) =>
+            {
+                Some(*value as u32)
+            }
+            _ => None,
+        }
+    }
+
+    /// Calls `visit` with every node, parents first.
+    pub fn visit<'a>(&'a self, visit: &mut impl FnMut(&'a Self)) {
+        visit(self);
+        match self {
+            Self::Number(_) | Self::Time | Self::Mode => {}
+            Self::Negate(operand) => operand.visit(visit),
+            Self::Binary { left, right, .. } => {
+                left.visit(visit);
+                right.visit(visit);
+            }
+            Self::Call { arguments, .. } => {
+                for argument in arguments {
+                    argument.visit(visit);
+                }
+            }
+        }
+    }
+}
+
+/// The identifiers of the marker, element and integer arguments of a call, in order.
+///
+/// `None` for a real argument; see [`Function::argument_kind`].
+#[must_use]
+pub fn arguments_as_ids(arguments: &[Expr]) -> Vec<Option<u32>> {
+    arguments.iter().map(Expr::as_id).collect()
+}
+
+/// An operation with two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BinaryOperator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `**`
+    Power,
+}

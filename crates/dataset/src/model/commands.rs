@@ -1,0 +1,165 @@
+//! What a command file (`.acf`) asks for.
+
+use super::{Effect, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta};
+use crate::expression::Expression;
+use crate::source::Span;
+
+/// A command file, or the commands of one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CommandFile {
+    /// In the order of the file.
+    pub commands: Vec<Command>,
+}
+
+/// One command.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// What it does.
+    pub kind: CommandKind,
+    /// The command on one line, without comments, as the message file echoes it.
+    pub echo: String,
+    /// Its place.
+    pub span: Span,
+}
+
+/// What a command does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CommandKind {
+    /// FILE/MODEL, or the first line of an old command file.
+    Model {
+        /// As written; without extension `.adm` is meant.
+        path: String,
+        /// Prefix of the output files; default the base name of the model.
+        output_prefix: Option<String>,
+    },
+    /// FILE/COMMAND: run another command file.
+    CommandFile {
+        /// As written; without extension `.acf` is meant.
+        path: String,
+    },
+    /// SIMULATE.
+    Simulate(Simulate),
+    /// A statement that changes the model.
+    Change(Box<Change>),
+    /// STOP.
+    Stop,
+}
+
+/// The analysis of a SIMULATE command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SimulationKind {
+    /// DYNAMIC.
+    Dynamic,
+    /// STATIC: one equilibrium, or with an end a quasi-static sweep.
+    Static,
+    /// QUASISTATIC.
+    QuasiStatic,
+    /// KINEMATIC.
+    Kinematic,
+    /// TRANSIENT: kinematic without freedoms, else dynamic.
+    Transient,
+    /// SETTLE.
+    Settle,
+    /// `INITIAL_CONDITIONS`: assembly only.
+    InitialConditions,
+}
+
+impl SimulationKind {
+    /// The name in the command language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::Dynamic => "DYNAMIC",
+            Self::Static => "STATIC",
+            Self::QuasiStatic => "QUASISTATIC",
+            Self::Kinematic => "KINEMATIC",
+            Self::Transient => "TRANSIENT",
+            Self::Settle => "SETTLE",
+            Self::InitialConditions => "INITIAL_CONDITIONS",
+        }
+    }
+}
+
+/// SIMULATE.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulate {
+    /// The analysis.
+    pub kind: SimulationKind,
+    /// END: absolute time of the end. Dynamic runs have either this or `duration`.
+    pub end: Option<f64>,
+    /// DURATION: time from the start to the end, positive.
+    pub duration: Option<f64>,
+    /// STEPS: number of output steps, at least one.
+    pub steps: Option<u32>,
+    /// DTOUT: time between outputs, positive. Never together with `steps`.
+    pub dtout: Option<f64>,
+}
+
+/// A change of one statement of the model; see [`Dataset::apply`](crate::Dataset::apply).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// What changes.
+    pub kind: ChangeKind,
+    /// The name of the file that asks for it.
+    pub source: String,
+    /// The place of the request.
+    pub span: Span,
+}
+
+/// What a [`Change`] changes. `None` leaves a value as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ChangeKind {
+    /// VARIABLE.
+    Variable {
+        /// Identifier.
+        id: u32,
+        /// IC.
+        ic: Option<f64>,
+        /// FUNCTION.
+        function: Option<Expression>,
+    },
+    /// SFORCE.
+    SingleForce {
+        /// Identifier.
+        id: u32,
+        /// FUNCTION.
+        function: Expression,
+    },
+    /// MOTION: a new function of the same level.
+    Motion {
+        /// Identifier.
+        id: u32,
+        /// FUNCTION.
+        function: Expression,
+    },
+    /// FRICTION.
+    Friction {
+        /// Identifier.
+        id: u32,
+        /// The arguments given.
+        arguments: Box<FrictionArguments>,
+    },
+    /// INTEGRATOR.
+    Integrator(Box<Integrator>),
+    /// ACCGRAV: components in the ground frame.
+    Gravity([Option<f64>; 3]),
+}
+
+/// The arguments given to a FRICTION, as a statement or as a command.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FrictionArguments {
+    /// `MU_STATIC`.
+    pub mu_static: Option<f64>,
+    /// `MU_DYNAMIC`.
+    pub mu_dynamic: Option<f64>,
+    /// EFFECT.
+    pub effect: Option<Effect>,
+    /// INPUTS.
+    pub inputs: Option<FrictionInputs>,
+    /// `OVERLAP_DELTA`.
+    pub overlap_delta: Option<OverlapDelta>,
+    /// INACTIVE=STATIC.
+    pub inactive_static: bool,
+    /// Quantities with the place of their arguments.
+    pub quantities: Vec<(FrictionQuantity, f64, Span)>,
+}

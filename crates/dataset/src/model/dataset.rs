@@ -1,0 +1,74 @@
+//! The whole model.
+
+use super::{
+    Elements, Equilibrium, Friction, GeneralConstraint, Graphics, InitialConditions, Integrator,
+    Joint, JointPrimitive, Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass,
+    Preferences, Request, ResultsOptions, SingleForce, SpringDamper, Units, Variable,
+};
+
+/// A dataset: everything that stiction understands of an `.adm` file.
+///
+/// It can be used only if reading it gave no diagnostic of [`Severity::Error`](crate::Severity).
+/// Then every reference by id leads to an element, exactly one part is the ground, and every
+/// number is finite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Dataset {
+    /// The first line of the file, without blanks at its end.
+    pub title: String,
+    /// UNITS; without it numbers are taken as consistent, see [`Units::default`].
+    pub units: Option<Units>,
+    /// ACCGRAV: acceleration of gravity, components in the ground frame.
+    pub gravity: Option<[f64; 3]>,
+    /// PART.
+    pub parts: Elements<Part>,
+    /// `POINT_MASS`.
+    pub point_masses: Elements<PointMass>,
+    /// MARKER.
+    pub markers: Elements<Marker>,
+    /// JOINT.
+    pub joints: Elements<Joint>,
+    /// JPRIM.
+    pub primitives: Elements<JointPrimitive>,
+    /// MOTION.
+    pub motions: Elements<Motion>,
+    /// GCON.
+    pub constraints: Elements<GeneralConstraint>,
+    /// SFORCE.
+    pub single_forces: Elements<SingleForce>,
+    /// SPRINGDAMPER.
+    pub spring_dampers: Elements<SpringDamper>,
+    /// VARIABLE.
+    pub variables: Elements<Variable>,
+    /// PINPUT.
+    pub plant_inputs: Elements<PlantPort>,
+    /// POUTPUT.
+    pub plant_outputs: Elements<PlantPort>,
+    /// REQUEST.
+    pub requests: Elements<Request>,
+    /// FRICTION.
+    pub frictions: Elements<Friction>,
+    /// GRAPHICS, kept for pictures.
+    pub graphics: Elements<Graphics>,
+    /// OUTPUT.
+    pub output: OutputOptions,
+    /// RESULTS.
+    pub results: ResultsOptions,
+    /// INTEGRATOR.
+    pub integrator: Option<Integrator>,
+    /// EQUILIBRIUM.
+    pub equilibrium: Option<Equilibrium>,
+    /// KINEMATICS.
+    pub kinematics: Option<Kinematics>,
+    /// IC.
+    pub initial_conditions: Option<InitialConditions>,
+    /// PREFERENCES.
+    pub preferences: Option<Preferences>,
+}
+
+impl Dataset {
+    /// The part that is the ground.
+    #[must_use]
+    pub fn ground(&self) -> Option<&Part> {
+        self.parts.iter().find(|part| part.ground)
+    }
+}

@@ -1,0 +1,154 @@
+//! JOINT, JPRIM and GCON: constraints between markers.
+//!
+//! In every constraint the origin `o` and the axes `x y z` of marker I are compared with those of
+//! marker J.
+
+use super::Header;
+use crate::expression::Expression;
+
+/// The type of a [`Joint`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointKind {
+    /// `o_I = o_J`, `z_I` along `z_J`; free: the angle about `z_J`.
+    Revolute,
+    /// Same axes, `o_I` on the `z_J` axis; free: the displacement along `z_J`.
+    Translational,
+    /// `z` axes coincide; free: displacement along and angle about `z_J`.
+    Cylindrical,
+    /// `o_I = o_J`.
+    Spherical,
+    /// `z_I` along `z_J`, `o_I` in the xy plane of J.
+    Planar,
+    /// Origins and axes coincide.
+    Fixed,
+    /// `o_I = o_J`, `x_I` perpendicular to `y_J`.
+    Hooke,
+    /// `o_I = o_J`, `z_I` perpendicular to `z_J`.
+    Universal,
+    /// Constant velocity; never in a dataset without errors.
+    ConstantVelocity,
+    /// Screw; never in a dataset without errors.
+    Screw {
+        /// Length per turn.
+        pitch: f64,
+    },
+    /// Rack and pinion; never in a dataset without errors.
+    RackPinion {
+        /// Pitch diameter.
+        diameter: f64,
+    },
+}
+
+impl JointKind {
+    /// The name in the dataset language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::Revolute => "REVOLUTE",
+            Self::Translational => "TRANSLATIONAL",
+            Self::Cylindrical => "CYLINDRICAL",
+            Self::Spherical => "SPHERICAL",
+            Self::Planar => "PLANAR",
+            Self::Fixed => "FIXED",
+            Self::Hooke => "HOOKE",
+            Self::Universal => "UNIVERSAL",
+            Self::ConstantVelocity => "CONVEL",
+            Self::Screw { .. } => "SCREW",
+            Self::RackPinion { .. } => "RACKPIN",
+        }
+    }
+
+    /// Whether the joint leaves rotation about `z_J` free as its coordinate.
+    #[must_use]
+    pub const fn rotates(self) -> bool {
+        matches!(self, Self::Revolute | Self::Cylindrical)
+    }
+
+    /// Whether the joint leaves displacement along `z_J` free as its coordinate.
+    #[must_use]
+    pub const fn translates(self) -> bool {
+        matches!(self, Self::Translational | Self::Cylindrical)
+    }
+}
+
+/// Initial displacement and velocity of a joint, of marker I relative to J, along or about `z_J`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InitialCondition {
+    /// Length or radians.
+    pub displacement: Option<f64>,
+    /// Length or radians per time.
+    pub velocity: Option<f64>,
+}
+
+/// JOINT.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Identifier, name and place.
+    pub header: Header,
+    /// Type.
+    pub kind: JointKind,
+    /// The I marker.
+    pub i: u32,
+    /// The J marker, on another part.
+    pub j: u32,
+    /// IC of a translational joint, ICTRAN of a cylindrical one.
+    pub ic_translation: Option<InitialCondition>,
+    /// IC of a revolute joint, ICROT of a cylindrical one.
+    pub ic_rotation: Option<InitialCondition>,
+}
+
+/// The type of a [`JointPrimitive`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PrimitiveKind {
+    /// `o_I = o_J`: three equations.
+    AtPoint,
+    /// `o_I` on the `z_J` axis: two.
+    Inline,
+    /// `o_I` in the xy plane of J: one.
+    Inplane,
+    /// Same axes: three.
+    Orientation,
+    /// `z_I` along `z_J`: two.
+    ParallelAxes,
+    /// `z_I` perpendicular to `z_J`: one.
+    Perpendicular,
+}
+
+impl PrimitiveKind {
+    /// The name in the dataset language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::AtPoint => "ATPOINT",
+            Self::Inline => "INLINE",
+            Self::Inplane => "INPLANE",
+            Self::Orientation => "ORIENTATION",
+            Self::ParallelAxes => "PARALLEL_AXES",
+            Self::Perpendicular => "PERPENDICULAR",
+        }
+    }
+}
+
+/// JPRIM.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointPrimitive {
+    /// Identifier, name and place.
+    pub header: Header,
+    /// Type.
+    pub kind: PrimitiveKind,
+    /// The I marker.
+    pub i: u32,
+    /// The J marker.
+    pub j: u32,
+}
+
+/// GCON: the constraint `function = 0` on positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GeneralConstraint {
+    /// Identifier, name and place.
+    pub header: Header,
+    /// The marker at which the reaction is reported.
+    pub i: Option<u32>,
+    /// The expression that is kept at zero.
+    pub function: Expression,
+}

@@ -1,0 +1,41 @@
+//! The typed model that a dataset describes: one struct a statement, values in model units.
+//!
+//! Numbers are those of the file; only angles given with the suffix `D` are converted to radians.
+//! Statements keep the order of the file.
+
+mod commands;
+mod dataset;
+mod elements;
+mod force;
+mod friction;
+mod joint;
+mod motion;
+mod part;
+mod request;
+mod settings;
+mod units;
+mod variable;
+
+pub use commands::{
+    Change, ChangeKind, Command, CommandFile, CommandKind, FrictionArguments, Simulate,
+    SimulationKind,
+};
+pub use dataset::Dataset;
+pub use elements::{Element, Elements, Header};
+pub use force::{ForceDirection, SingleForce, SpringDamper};
+pub use friction::{
+    DefaultInUse, Dimension, Effect, Formulation, Friction, FrictionInputs, FrictionQuantity,
+    OverlapDelta, Yoke,
+};
+pub use joint::{
+    GeneralConstraint, InitialCondition, Joint, JointKind, JointPrimitive, PrimitiveKind,
+};
+pub use motion::{Motion, MotionDirection, MotionLevel, MotionTarget};
+pub use part::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
+pub use request::{Graphics, Request, RequestKind};
+pub use settings::{
+    Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
+    Kinematics, OutputOptions, Preferences, ResultsOptions,
+};
+pub use units::{ForceUnit, LengthUnit, MassUnit, TimeUnit, Units};
+pub use variable::{PlantPort, Variable};

@@ -1,0 +1,150 @@
+//! The text of a dataset or command file, and places in it.
+
+use crate::diagnostic::{Code, Diagnostic, Severity};
+
+/// A half-open range of byte offsets into the decoded text of a [`Source`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Span {
+    /// Offset of the first byte.
+    pub start: usize,
+    /// Offset behind the last byte.
+    pub end: usize,
+}
+
+impl Span {
+    /// The range from `start` to `end`.
+    #[must_use]
+    pub const fn new(start: usize, end: usize) -> Self {
+        Self { start, end }
+    }
+
+    /// The smallest range that holds `self` and `other`.
+    #[must_use]
+    pub fn to(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+}
+
+/// A named text with line numbers.
+///
+/// Adams files are not UTF-8: bytes are read as Latin-1, so every byte string without a NUL is a
+/// text, and a byte above 127 becomes a two-byte character of [`Source::text`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    name: String,
+    text: String,
+    line_starts: Vec<u32>,
+}
+
+/// The longest file that is read, in bytes of decoded text (offsets are kept in 32 bits).
+pub const LONGEST_SOURCE: usize = u32::MAX as usize - 1;
+
+impl Source {
+    /// Decodes the bytes of the file `name` (the path as it is shown in messages).
+    ///
+    /// # Errors
+    /// `not-text` when the bytes hold a NUL or more than one control character in twenty, as a
+    /// binary file does; `too-large` above [`LONGEST_SOURCE`].
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Box<Diagnostic>> {
+        let refuse = |code, message: String, help: &str| {
+            Err(Box::new(Diagnostic {
+                code,
+                severity: Severity::Error,
+                message,
+                source: name.to_string(),
+                span: Span::default(),
+                notes: Vec::new(),
+                help: Some(help.to_string()),
+            }))
+        };
+        let is_control = |byte: u8| byte < 32 && !matches!(byte, b'\t' | b'\n' | b'\r' | 12 | 26);
+        let controls = bytes.iter().filter(|byte| is_control(**byte)).count();
+        if bytes.contains(&0) || controls * 20 > bytes.len() {
+            return refuse(
+                Code::NotText,
+                "this file is not text".to_string(),
+                "an Adams dataset (.adm) or command file (.acf) is plain text",
+            );
+        }
+        let decoded = bytes.len() + bytes.iter().filter(|byte| !byte.is_ascii()).count();
+        if decoded > LONGEST_SOURCE {
+            return refuse(
+                Code::TooLarge,
+                format!("this file has {} bytes", bytes.len()),
+                "files of up to 4 GB are read",
+            );
+        }
+        let text = match bytes.strip_prefix(b"\xEF\xBB\xBF") {
+            Some(rest) => rest.iter().map(|byte| char::from(*byte)).collect(),
+            None => bytes.iter().map(|byte| char::from(*byte)).collect(),
+        };
+        Ok(Self::from_text(name, text))
+    }
+
+    /// A source made of a text that is in memory already, for example one command line.
+    ///
+    /// ```
+    /// let source = dataset::Source::from_text("--set", "FRICTION/103, MU_STATIC=0.2".to_string());
+    /// assert_eq!(source.line_column(10), (1, 11));
+    /// ```
+    #[must_use]
+    pub fn from_text(name: &str, text: String) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let line_starts = std::iter::once(0)
+            .chain(ends.map(|(offset, _)| u32::try_from(offset + 1).unwrap_or(u32::MAX)))
+            .collect();
+        Self {
+            name: name.to_string(),
+            text,
+            line_starts,
+        }
+    }
+
+    /// The name of the file as it is shown in messages.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The decoded text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The text of `span`; empty where the span lies outside the text or splits a character.
+    #[must_use]
+    pub fn slice(&self, span: Span) -> &str {
+        self.text.get(span.start..span.end).unwrap_or("")
+    }
+
+    /// Line and column of a byte offset, both counted from 1, columns in characters.
+    #[must_use]
+    pub fn line_column(&self, offset: usize) -> (usize, usize) {
+        let line = self.line_of(offset);
+        let start = self.line_starts[line] as usize;
+        let before = self.text.get(start..offset.min(self.text.len()));
+        (line + 1, before.unwrap_or("").chars().count() + 1)
+    }
+
+    /// The text of the line that holds `offset`, without its end, and the offset of its start.
+    #[must_use]
+    pub fn line_text(&self, offset: usize) -> (&str, usize) {
+        let line = self.line_of(offset);
+        let start = self.line_starts[line] as usize;
+        let end = match self.line_starts.get(line + 1) {
+            Some(next) => *next as usize - 1,
+            None => self.text.len(),
+        };
+        (self.text[start..end].trim_end_matches('\r'), start)
+    }
+
+    fn line_of(&self, offset: usize) -> usize {
+        self.line_starts
+            .partition_point(|start| *start as usize <= offset)
+            .saturating_sub(1)
+    }
+}
