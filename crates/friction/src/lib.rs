@@ -23,7 +23,7 @@
 //! * `FORMULATION=LUGRE`: a file `lugre.rs` beside `original.rs` that yields a [`Coefficient`] and
 //!   the rate of its bristle deflection.
 //! * Cylindrical, hooke and universal joints: one file each in `joint/`, yielding a
-//!   [`Load`](joint::Load). The coefficient already works for any dimension (2 for cylindrical).
+//!   [`Load`]. The coefficient already works for any dimension (2 for cylindrical).
 //!
 //! # Example
 //! ```

@@ -1,7 +1,7 @@
 //! The past of a solution as divided differences.
 
 /// Highest order of the backward differentiation formulas in use; beyond 5 they are hardly stable.
-pub const HIGHEST_ORDER: usize = 5;
+pub(super) const HIGHEST_ORDER: usize = 5;
 /// Nodes kept: order + 2, so that the error of the next higher order can be estimated.
 const NODES: usize = HIGHEST_ORDER + 2;
 
