@@ -138,13 +138,8 @@ fn samples_of_a_real_run() {
     };
 
     let (mut samples, mut stuck) = (0, 0);
-    let [
-        mut worst_mu,
-        mut worst_mu1,
-        mut worst_beta,
-        mut worst_size,
-        mut worst_torque,
-    ] = [0.0f64; 5];
+    let [mut worst_mu, mut worst_mu1, mut worst_beta, mut worst_size] = [0.0f64; 4];
+    let mut worst_torque = [0.0f64; 2];
     for row in &rows {
         for friction in 1..=12 {
             let number = |key: &str| {
