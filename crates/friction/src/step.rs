@@ -13,15 +13,13 @@
 //! The help of the `FRICTION` statement names "a STEP function". Real results of Adams Solver C++
 //! 2015.1 follow the quintic to 2e-15 and differ from the cubic by up to 5 % of the local value.
 
-/// Value of a step and its first two derivatives.
+/// Value of a step and its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Value, in the unit of `h0` and `h1`.
     pub value: f64,
-    /// First derivative with respect to `x`.
+    /// Derivative with respect to `x`.
     pub slope: f64,
-    /// Second derivative with respect to `x`.
-    pub curvature: f64,
 }
 
 /// Quintic step from `h0` at `x0` to `h1` at `x1`, constant outside, for `x0 < x1`.
@@ -39,14 +37,12 @@ pub fn step5(x: f64, x0: f64, h0: f64, x1: f64, h1: f64) -> Step {
         return Step {
             value: h0,
             slope: 0.0,
-            curvature: 0.0,
         };
     }
     if x >= x1 {
         return Step {
             value: h1,
             slope: 0.0,
-            curvature: 0.0,
         };
     }
     let (width, height) = (x1 - x0, h1 - h0);
@@ -55,7 +51,6 @@ pub fn step5(x: f64, x0: f64, h0: f64, x1: f64, h1: f64) -> Step {
     Step {
         value: h0 + height * s * s * s * (10.0 - s * (15.0 - 6.0 * s)),
         slope: height / width * 30.0 * s * s * rest * rest,
-        curvature: height / (width * width) * 60.0 * s * rest * (1.0 - 2.0 * s),
     }
 }
 
