@@ -21,7 +21,7 @@ pub struct StepRow {
     pub elapsed: f64,
 }
 
-/// Writer of a `.msg`; every call is written out at once.
+/// Writer of a `.msg`; every call is written out at once and returns the errors of the file system.
 ///
 /// ```
 /// use results::MessageWriter;
@@ -45,9 +45,6 @@ const WIDTH: usize = 76;
 
 impl<W: Write> MessageWriter<W> {
     /// Writes the banner: program, version, date (`2026-01-31 12:00:00` or unknown) and process.
-    ///
-    /// # Errors
-    /// All functions here return the errors of the file system.
     pub fn new(out: W, program: &str, version: &str, date: Option<&str>) -> io::Result<Self> {
         let mut log = Self { out };
         log.write_box(&[

@@ -245,6 +245,13 @@ fn families_must_fit_their_blocks() {
     let error = layout.push_family(family, &[6, 6, 6]).unwrap_err();
     assert_eq!((error.components, error.expected), (1, 18));
     assert_eq!(layout, Layout::new());
+    // Blocks of two and four: both pairs first, then both fours.
+    let family = ["A", "B"].map(|name| Entity::reaction("Joint", name, 1, &units));
+    assert_eq!(layout.push_family(family.to_vec(), &[2, 4]).unwrap(), 0..12);
+    assert_eq!([0, 1, 2, 5].map(|k| layout.column(0, k)), [0, 1, 4, 7]);
+    assert_eq!([0, 1, 2, 5].map(|k| layout.column(1, k)), [2, 3, 8, 11]);
+    assert_eq!(layout.name_of(8).as_deref(), Some("B.FZ"));
+    assert_eq!(layout.name_of(12), None);
 }
 
 #[test]
