@@ -109,8 +109,6 @@ codes! {
     StaticBelowDynamic = "static-below-dynamic",
     /// A default with a length in it, in a model that is not in millimetres.
     DimensionalDefault = "dimensional-default",
-    /// A command file without a model.
-    NoModel = "no-model",
     /// A change of an element that a command cannot make.
     InvalidChange = "invalid-change",
 }
@@ -146,12 +144,6 @@ impl Diagnostic {
     #[must_use]
     pub fn render(&self, source: &Source) -> String {
         let (line, column) = source.line_column(self.span.start);
-        let (text, start) = source.line_text(self.span.start);
-        let from = text.len().min(self.span.start.saturating_sub(start));
-        let to = text.len().min(self.span.end.saturating_sub(start));
-        let marked = text.get(from..to).unwrap_or("").chars().count().max(1);
-        let blank = text.get(..from).unwrap_or("").chars();
-        let blank: String = blank.map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         let severity = self.severity.as_str();
         let code = self.code.as_str();
         let gutter = line.to_string();
@@ -160,10 +152,9 @@ impl Diagnostic {
             "{}:{line}:{column}: {severity}[{code}]: {}\n",
             self.source, self.message
         );
-        if !text.trim().is_empty() {
-            let mark = "^".repeat(marked);
-            // Writing to a String cannot fail.
-            let _ = writeln!(out, " {gutter} | {text}\n {margin} | {blank}{mark}");
+        // Writing to a String cannot fail.
+        if let Some((text, mark)) = self.excerpt(source) {
+            let _ = writeln!(out, " {gutter} | {text}\n {margin} | {mark}");
         }
         for note in &self.notes {
             let _ = writeln!(out, " {margin} = note: {note}");
@@ -172,5 +163,122 @@ impl Diagnostic {
             let _ = writeln!(out, " {margin} = help: {help}");
         }
         out
+    }
+
+    /// The line of the source, cut to a window where it is long, and carets under the place.
+    fn excerpt(&self, source: &Source) -> Option<(String, String)> {
+        const WINDOW: usize = 120;
+        const BEFORE: usize = 80;
+        let (line, start) = source.line_text(self.span.start);
+        let from = line.len().min(self.span.start.saturating_sub(start));
+        let to = line
+            .len()
+            .min(self.span.end.saturating_sub(start))
+            .max(from);
+        let left = line.floor_char_boundary(from.saturating_sub(BEFORE));
+        let right = line.floor_char_boundary(line.len().min(from + WINDOW));
+        let text = line.get(left..right)?;
+        if text.trim().is_empty() {
+            return None;
+        }
+        let marked = line.get(from..to.min(right)).unwrap_or("").chars().count();
+        let before = line.get(left..from).unwrap_or("").chars();
+        let blank: String = before.map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        Some((
+            text.to_string(),
+            format!("{blank}{}", "^".repeat(marked.max(1))),
+        ))
+    }
+
+    pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Self {
+        self.notes.push(note.into());
+        self
+    }
+}
+
+/// The messages about one source, up to a limit.
+pub(crate) struct Diagnostics<'a> {
+    pub(crate) source: &'a Source,
+    list: Vec<Diagnostic>,
+    /// Takes what comes after the limit.
+    overflow: Option<Box<Diagnostic>>,
+    dropped: usize,
+}
+
+/// More messages than this help nobody and would fill the memory.
+const MOST: usize = 10_000;
+
+impl<'a> Diagnostics<'a> {
+    pub(crate) fn new(source: &'a Source) -> Self {
+        Self {
+            source,
+            list: Vec::new(),
+            overflow: None,
+            dropped: 0,
+        }
+    }
+
+    pub(crate) fn error(
+        &mut self,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        self.add(Severity::Error, code, span, message.into())
+    }
+
+    pub(crate) fn warning(
+        &mut self,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        self.add(Severity::Warning, code, span, message.into())
+    }
+
+    fn add(
+        &mut self,
+        severity: Severity,
+        code: Code,
+        span: Span,
+        message: String,
+    ) -> &mut Diagnostic {
+        let diagnostic = Diagnostic {
+            code,
+            severity,
+            message,
+            source: self.source.name().to_string(),
+            span,
+            notes: Vec::new(),
+            help: None,
+        };
+        if self.list.len() < MOST {
+            self.list.push(diagnostic);
+            let last = self.list.len() - 1;
+            return &mut self.list[last];
+        }
+        self.dropped += 1;
+        // An error must not be lost behind warnings: the file stays refused.
+        if severity == Severity::Error && self.dropped > 0 {
+            self.list[MOST - 1].severity = Severity::Error;
+        }
+        self.overflow.insert(Box::new(diagnostic))
+    }
+
+    /// The messages in the order of their places.
+    pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
+        self.list.sort_by_key(|diagnostic| diagnostic.span.start);
+        if self.dropped > 0 {
+            let message = format!("{} more messages are not shown", self.dropped);
+            let mut last = self.list[MOST - 1].clone();
+            last.notes = vec![message];
+            self.list.push(last);
+        }
+        self.list
     }
 }

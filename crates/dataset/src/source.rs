@@ -37,6 +37,8 @@ pub struct Source {
     name: String,
     text: String,
     line_starts: Vec<u32>,
+    /// For every character of more than one byte its offset, once for each further byte.
+    wide: Vec<u32>,
 }
 
 /// The longest file that is read, in bytes of decoded text (offsets are kept in 32 bits).
@@ -92,14 +94,20 @@ impl Source {
     /// ```
     #[must_use]
     pub fn from_text(name: &str, text: String) -> Self {
-        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        let line_starts = std::iter::once(0)
-            .chain(ends.map(|(offset, _)| u32::try_from(offset + 1).unwrap_or(u32::MAX)))
-            .collect();
+        let mut line_starts = vec![0];
+        let mut wide = Vec::new();
+        for (offset, character) in text.char_indices() {
+            // Offsets fit, since a source is not longer than `LONGEST_SOURCE`.
+            if character == '\n' {
+                line_starts.push(offset as u32 + 1);
+            }
+            wide.extend((1..character.len_utf8()).map(|_| offset as u32));
+        }
         Self {
             name: name.to_string(),
             text,
             line_starts,
+            wide,
         }
     }
 
@@ -121,13 +129,28 @@ impl Source {
         self.text.get(span.start..span.end).unwrap_or("")
     }
 
+    /// The text of `span` for a message: on one line and at most 60 characters long.
+    #[must_use]
+    pub fn excerpt(&self, span: Span) -> String {
+        const LONGEST: usize = 60;
+        let text = self.slice(span);
+        let line = text.lines().next().unwrap_or("").trim_end();
+        let short: String = line.chars().take(LONGEST).collect();
+        if short.len() < text.trim_end().len() {
+            format!("{short}...")
+        } else {
+            short
+        }
+    }
+
     /// Line and column of a byte offset, both counted from 1, columns in characters.
     #[must_use]
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
         let line = self.line_of(offset);
         let start = self.line_starts[line] as usize;
-        let before = self.text.get(start..offset.min(self.text.len()));
-        (line + 1, before.unwrap_or("").chars().count() + 1)
+        let end = offset.min(self.text.len());
+        let wide = |end: usize| self.wide.partition_point(|at| (*at as usize) < end);
+        (line + 1, end - start - (wide(end) - wide(start)) + 1)
     }
 
     /// The text of the line that holds `offset`, without its end, and the offset of its start.

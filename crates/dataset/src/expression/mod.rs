@@ -1,8 +1,10 @@
 //! Run-time expressions: the syntax tree of a FUNCTION argument.
 
 mod function;
+mod parser;
 
 pub use function::{ArgumentKind, ElementKind, Function};
+pub(crate) use parser::parse;
 
 use crate::source::Span;
 

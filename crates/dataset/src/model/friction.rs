@@ -25,7 +25,7 @@ pub enum Effect {
 }
 
 /// Which axis of a Hooke or universal joint a friction acts on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Yoke {
     /// `I_YOKE`.
     I,

@@ -7,7 +7,7 @@ use super::Header;
 use crate::expression::Expression;
 
 /// The type of a [`Joint`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointKind {
     /// `o_I = o_J`, `z_I` along `z_J`; free: the angle about `z_J`.
     Revolute,
@@ -28,15 +28,9 @@ pub enum JointKind {
     /// Constant velocity; never in a dataset without errors.
     ConstantVelocity,
     /// Screw; never in a dataset without errors.
-    Screw {
-        /// Length per turn.
-        pitch: f64,
-    },
+    Screw,
     /// Rack and pinion; never in a dataset without errors.
-    RackPinion {
-        /// Pitch diameter.
-        diameter: f64,
-    },
+    RackPinion,
 }
 
 impl JointKind {
@@ -53,8 +47,8 @@ impl JointKind {
             Self::Hooke => "HOOKE",
             Self::Universal => "UNIVERSAL",
             Self::ConstantVelocity => "CONVEL",
-            Self::Screw { .. } => "SCREW",
-            Self::RackPinion { .. } => "RACKPIN",
+            Self::Screw => "SCREW",
+            Self::RackPinion => "RACKPIN",
         }
     }
 

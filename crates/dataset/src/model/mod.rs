@@ -23,6 +23,7 @@ pub use commands::{
 pub use dataset::Dataset;
 pub use elements::{Element, Elements, Header};
 pub use force::{ForceDirection, SingleForce, SpringDamper};
+pub(crate) use friction::Least;
 pub use friction::{
     DefaultInUse, Dimension, Effect, Formulation, Friction, FrictionInputs, FrictionQuantity,
     OverlapDelta, Yoke,

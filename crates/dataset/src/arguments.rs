@@ -1,0 +1,551 @@
+//! The arguments of a statement: keyword tables, and the values that a statement gives.
+
+use crate::diagnostic::{Code, Diagnostics};
+use crate::expression::{self, Expression};
+use crate::names::{self, Match, Name};
+use crate::source::{Source, Span};
+use crate::syntax::{Item, TokenKind, join, number_value};
+
+/// What the value of an argument looks like, or why there is none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    /// No value.
+    Flag,
+    /// A number, `D` for degrees allowed.
+    Real,
+    /// Between so many and so many numbers.
+    Reals(usize, usize),
+    /// A whole number.
+    Integer,
+    /// A positive whole number.
+    Id,
+    /// Positive whole numbers.
+    Ids,
+    /// One name.
+    Word,
+    /// Names with `:` or `,` between them, brackets round them allowed.
+    Words,
+    /// Everything up to the next argument.
+    Text,
+    /// Texts in quotes.
+    Strings,
+    /// A run-time expression.
+    Expression,
+    /// Anything; reported as without effect, with the reason.
+    Ignored(&'static str),
+    /// Anything; refused, with the reason.
+    Unsupported(&'static str),
+}
+
+/// One argument that a statement can have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Keyword {
+    pub(crate) name: Name,
+    pub(crate) kind: Kind,
+}
+
+/// An argument whose abbreviations are those that fit no other.
+pub(crate) const fn keyword(full: &'static str, kind: Kind) -> Keyword {
+    abbreviated(full, full, kind)
+}
+
+/// An argument that `least` stands for even where other arguments start so too.
+pub(crate) const fn abbreviated(full: &'static str, least: &'static str, kind: Kind) -> Keyword {
+    Keyword {
+        name: Name { full, least },
+        kind,
+    }
+}
+
+/// The value that a statement gives to an argument.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Flag,
+    Reals(Vec<(f64, Span)>),
+    Integers(Vec<(u32, Span)>),
+    Words(Vec<Span>),
+    Text(String),
+    Strings(Vec<String>),
+    Expression(Expression),
+}
+
+/// An argument of a statement.
+#[derive(Clone, Debug)]
+pub(crate) struct Argument {
+    pub(crate) keyword: &'static str,
+    /// The keyword.
+    pub(crate) span: Span,
+    /// The value, or the keyword of a flag.
+    pub(crate) value_span: Span,
+    pub(crate) value: Value,
+}
+
+/// Reads the arguments in `items`, from position `start` on. An argument that is wrong is
+/// reported and left out; its name is in the second list, as is that of an argument without
+/// effect.
+pub(crate) fn read(
+    items: &[Item],
+    start: usize,
+    statement: &'static str,
+    keywords: &[Keyword],
+    diagnostics: &mut Diagnostics,
+) -> (Vec<Argument>, Vec<&'static str>) {
+    let mut parser = Parser {
+        source: diagnostics.source,
+        items,
+        at: start,
+        statement,
+        keywords,
+        diagnostics,
+        arguments: Vec::new(),
+        unread: Vec::new(),
+    };
+    parser.arguments();
+    (parser.arguments, parser.unread)
+}
+
+struct Parser<'a, 's> {
+    source: &'s Source,
+    items: &'a [Item],
+    at: usize,
+    statement: &'static str,
+    keywords: &'a [Keyword],
+    diagnostics: &'a mut Diagnostics<'s>,
+    arguments: Vec<Argument>,
+    unread: Vec<&'static str>,
+}
+
+/// The value is wrong and has been reported.
+struct Refused;
+
+impl Parser<'_, '_> {
+    fn kind(&self, at: usize) -> Option<TokenKind> {
+        self.items.get(at).map(|item| item.kind)
+    }
+
+    fn slice(&self, at: usize) -> &str {
+        self.items
+            .get(at)
+            .map_or("", |item| self.source.slice(item.span))
+    }
+
+    fn span(&self, at: usize) -> Span {
+        let last = self.items.len().saturating_sub(1);
+        self.items
+            .get(at.min(last))
+            .map_or(Span::default(), |item| item.span)
+    }
+
+    fn find(&self, word: &str) -> Match {
+        names::find(word, self.keywords.iter().map(|keyword| keyword.name))
+    }
+
+    fn arguments(&mut self) {
+        let mut separated = true;
+        while self.at < self.items.len() {
+            match self.kind(self.at) {
+                Some(TokenKind::Comma) => {
+                    let follows = self.kind(self.at + 1);
+                    if matches!(follows, None | Some(TokenKind::Comma)) && self.at > 0 {
+                        let span = self.span(self.at);
+                        self.diagnostics.error(
+                            Code::Syntax,
+                            span,
+                            "an argument is missing after this comma",
+                        );
+                    }
+                    separated = true;
+                    self.at += 1;
+                }
+                Some(TokenKind::Backslash) => {
+                    separated = true;
+                    self.at += 1;
+                }
+                Some(TokenKind::Word) if separated => {
+                    separated = false;
+                    self.argument();
+                }
+                _ => {
+                    let span = self.span(self.at);
+                    let found = self.source.excerpt(span);
+                    let (expected, help) = if separated {
+                        ("the name of an argument", None)
+                    } else {
+                        ("`,`", Some("arguments are separated by commas"))
+                    };
+                    let error = self.diagnostics.error(
+                        Code::Syntax,
+                        span,
+                        format!("expected {expected}, found `{found}`"),
+                    );
+                    error.help = help.map(str::to_string);
+                    separated = false;
+                    self.skip_value();
+                }
+            }
+        }
+    }
+
+    fn argument(&mut self) {
+        let name_at = self.at;
+        let span = self.span(name_at);
+        self.at += 1;
+        let word = self.slice(name_at).to_string();
+        let keyword = match self.find(&word) {
+            Match::One(index) => self.keywords[index],
+            Match::Several(fits) => {
+                let message = format!("`{word}` can mean {}", fits.join(" or "));
+                self.diagnostics
+                    .error(Code::AmbiguousName, span, message)
+                    .help("write more letters");
+                return self.skip_value();
+            }
+            Match::None(near) => {
+                let found = self.source.excerpt(span);
+                let message = format!("{} has no argument {found}", self.statement);
+                let error = self.diagnostics.error(Code::UnknownArgument, span, message);
+                error.help = near.map(|near| format!("is {near} meant?"));
+                return self.skip_value();
+            }
+        };
+        let full = keyword.name.full;
+        match keyword.kind {
+            Kind::Ignored(reason) => {
+                let message = format!("{} of {} has no effect: {reason}", full, self.statement);
+                self.diagnostics.warning(Code::Ignored, span, message);
+                self.unread.push(full);
+                return self.skip_value();
+            }
+            Kind::Unsupported(reason) => {
+                let message = format!("{full} of {} is not simulated: {reason}", self.statement);
+                self.diagnostics
+                    .error(Code::UnsupportedArgument, span, message);
+                self.unread.push(full);
+                return self.skip_value();
+            }
+            _ => {}
+        }
+        let repeated = self
+            .arguments
+            .iter()
+            .any(|argument| argument.keyword == full);
+        if repeated {
+            let message = format!("{full} is given twice");
+            self.diagnostics
+                .error(Code::DuplicateArgument, span, message);
+        }
+        let value_at = self.at + 1;
+        match self.value(full, keyword.kind, span) {
+            Ok(_) if repeated => {}
+            Ok(value) => {
+                let value_span = match value {
+                    Value::Flag => span,
+                    _ => self.span(value_at).to(self.span(self.at - 1)),
+                };
+                self.arguments.push(Argument {
+                    keyword: full,
+                    span,
+                    value_span,
+                    value,
+                });
+            }
+            Err(Refused) => {
+                self.unread.push(full);
+                self.skip_value();
+            }
+        }
+    }
+
+    /// Moves behind a value that is not read: to `\`, to a comma outside brackets with a name
+    /// behind it, or to the start of a continued line with `NAME =`.
+    fn skip_value(&mut self) {
+        let mut brackets = 0_usize;
+        while let Some(kind) = self.kind(self.at) {
+            match kind {
+                TokenKind::Backslash => break,
+                TokenKind::LeftParenthesis => brackets += 1,
+                TokenKind::RightParenthesis => brackets = brackets.saturating_sub(1),
+                TokenKind::Comma if self.kind(self.at + 1) == Some(TokenKind::Word) => {
+                    let named = self.kind(self.at + 2) == Some(TokenKind::Equals);
+                    if brackets == 0 || (named && self.items[self.at].continues) {
+                        break;
+                    }
+                }
+                _ => {}
+            }
+            self.at += 1;
+        }
+    }
+
+    /// Whether the item is the name of an argument of this statement.
+    fn argument_at(&self, at: usize) -> bool {
+        self.kind(at) == Some(TokenKind::Word) && matches!(self.find(self.slice(at)), Match::One(_))
+    }
+
+    fn refuse(&mut self, at: usize, message: String) -> Refused {
+        let span = self.span(at);
+        self.diagnostics.error(Code::InvalidValue, span, message);
+        Refused
+    }
+
+    fn value(&mut self, name: &'static str, kind: Kind, span: Span) -> Result<Value, Refused> {
+        let has_value = self.kind(self.at) == Some(TokenKind::Equals);
+        if matches!(kind, Kind::Flag) {
+            if has_value {
+                return Err(self.refuse(self.at, format!("{name} takes no value")));
+            }
+            return Ok(Value::Flag);
+        }
+        if !has_value {
+            let message = format!("{name} needs a value");
+            self.diagnostics
+                .error(Code::InvalidValue, span, message)
+                .help(format!("write {name} = ..."));
+            return Err(Refused);
+        }
+        self.at += 1;
+        match kind {
+            Kind::Real => self.reals(name, 1, 1),
+            Kind::Reals(least, most) => self.reals(name, least, most),
+            Kind::Integer => self.integers(name, 0, true),
+            Kind::Id => self.integers(name, 1, true),
+            Kind::Ids => self.integers(name, 1, false),
+            Kind::Word => self.words(name, false),
+            Kind::Words => self.words(name, true),
+            Kind::Strings => self.strings(),
+            Kind::Expression => self.expression(),
+            Kind::Text | Kind::Flag | Kind::Ignored(_) | Kind::Unsupported(_) => Ok(self.text()),
+        }
+    }
+
+    /// Whether a number starts at `at`.
+    fn number_at(&self, at: usize) -> bool {
+        match self.kind(at) {
+            Some(TokenKind::Number) => true,
+            Some(TokenKind::Plus | TokenKind::Minus) => {
+                self.kind(at + 1) == Some(TokenKind::Number)
+            }
+            _ => false,
+        }
+    }
+
+    fn reals(&mut self, name: &str, least: usize, most: usize) -> Result<Value, Refused> {
+        let first = self.at;
+        let mut values = Vec::new();
+        loop {
+            if !self.number_at(self.at) {
+                let what = if most == 1 { "a number" } else { "numbers" };
+                return Err(self.expected(name, what));
+            }
+            let start = self.span(self.at);
+            let negative = self.kind(self.at) == Some(TokenKind::Minus);
+            if self.kind(self.at) != Some(TokenKind::Number) {
+                self.at += 1;
+            }
+            let text = self.slice(self.at);
+            let Some(value) = number_value(text) else {
+                let message = format!("`{text}` is not a number");
+                return Err(self.refuse(self.at, message));
+            };
+            if !value.is_finite() {
+                let message = format!(
+                    "`{}` is too large for a number",
+                    self.source.excerpt(self.span(self.at))
+                );
+                let span = self.span(self.at);
+                self.diagnostics.error(Code::OutOfRange, span, message);
+                return Err(Refused);
+            }
+            let span = start.to(self.span(self.at));
+            values.push((if negative { -value } else { value }, span));
+            self.at += 1;
+            if self.kind(self.at) == Some(TokenKind::Comma) && self.number_at(self.at + 1) {
+                self.at += 1;
+            } else {
+                break;
+            }
+        }
+        self.end_of_value(name)?;
+        if !(least..=most).contains(&values.len()) {
+            let count = match least {
+                _ if least == most => format!("{most}"),
+                _ => format!("{least} to {most}"),
+            };
+            let plural = if most == 1 { "" } else { "s" };
+            let message = format!(
+                "{name} takes {count} number{plural}, found {}",
+                values.len()
+            );
+            let span = self.span(first).to(self.span(self.at - 1));
+            self.diagnostics.error(Code::InvalidValue, span, message);
+            return Err(Refused);
+        }
+        Ok(Value::Reals(values))
+    }
+
+    fn expected(&mut self, name: &str, what: &str) -> Refused {
+        let message = match self.items.get(self.at) {
+            Some(item) => {
+                let found = self.source.excerpt(item.span);
+                format!("{name} takes {what}, found `{found}`")
+            }
+            None => format!("{name} takes {what}, found nothing"),
+        };
+        self.refuse(self.at, message)
+    }
+
+    /// Whether the item is a name, but neither of an argument nor of anything with a value.
+    fn plain_word_at(&self, at: usize) -> bool {
+        self.kind(at) == Some(TokenKind::Word)
+            && self.kind(at + 1) != Some(TokenKind::Equals)
+            && !self.argument_at(at)
+    }
+
+    /// Reports anything but a separator behind a value.
+    fn end_of_value(&mut self, name: &str) -> Result<(), Refused> {
+        match self.kind(self.at) {
+            None | Some(TokenKind::Comma | TokenKind::Backslash) => Ok(()),
+            Some(_) => {
+                let found = self.source.excerpt(self.span(self.at));
+                let message = format!("the value of {name} ends before `{found}`");
+                Err(self.refuse(self.at, message))
+            }
+        }
+    }
+
+    fn integers(&mut self, name: &str, least: u32, one: bool) -> Result<Value, Refused> {
+        let what = if least == 0 {
+            "a whole number"
+        } else {
+            "the number of an element, 1 or greater"
+        };
+        let mut values = Vec::new();
+        loop {
+            let value = match self.kind(self.at) {
+                Some(TokenKind::Number) => self.slice(self.at).parse().ok(),
+                _ => None,
+            };
+            match value.filter(|value| *value >= least) {
+                Some(value) => values.push((value, self.span(self.at))),
+                None => return Err(self.expected(name, what)),
+            }
+            self.at += 1;
+            let more = self.kind(self.at) == Some(TokenKind::Comma) && self.number_at(self.at + 1);
+            if one && more {
+                return Err(self.refuse(self.at + 1, format!("{name} takes one number")));
+            }
+            if !more {
+                break;
+            }
+            self.at += 1;
+        }
+        self.end_of_value(name)?;
+        Ok(Value::Integers(values))
+    }
+
+    fn words(&mut self, name: &str, several: bool) -> Result<Value, Refused> {
+        let open = several && self.kind(self.at) == Some(TokenKind::LeftParenthesis);
+        self.at += usize::from(open);
+        let mut words = Vec::new();
+        loop {
+            if self.kind(self.at) != Some(TokenKind::Word) {
+                return Err(self.expected(name, "a name"));
+            }
+            words.push(self.span(self.at));
+            self.at += 1;
+            match self.kind(self.at) {
+                Some(TokenKind::Colon) if several => self.at += 1,
+                Some(TokenKind::Comma) if open || (several && self.plain_word_at(self.at + 1)) => {
+                    self.at += 1;
+                }
+                _ => break,
+            }
+        }
+        if open {
+            if self.kind(self.at) != Some(TokenKind::RightParenthesis) {
+                return Err(self.expected(name, "names in brackets and `)`"));
+            }
+            self.at += 1;
+        }
+        self.end_of_value(name)?;
+        Ok(Value::Words(words))
+    }
+
+    /// Whether the comma at `at` is followed by another argument rather than by more text.
+    fn text_ends_at(&self, at: usize) -> bool {
+        let Some(comma) = self.items.get(at) else {
+            return true;
+        };
+        comma.kind == TokenKind::Comma
+            && self.argument_at(at + 1)
+            && (comma.continues || self.kind(at + 2) == Some(TokenKind::Equals))
+    }
+
+    fn text(&mut self) -> Value {
+        let first = self.at;
+        while !self.text_ends_at(self.at) {
+            self.at += 1;
+        }
+        if first == self.at {
+            return Value::Text(String::new());
+        }
+        let items = &self.items[first..self.at];
+        let text = if items.iter().any(|item| item.continues) {
+            join(self.source, items)
+        } else {
+            let span = items[0].span.to(items[items.len() - 1].span);
+            self.source.slice(span).to_string()
+        };
+        let text = text.trim_end_matches('\\').trim_end();
+        let quoted = text
+            .strip_prefix('"')
+            .and_then(|text| text.strip_suffix('"'));
+        Value::Text(quoted.unwrap_or(text).to_string())
+    }
+
+    fn strings(&mut self) -> Result<Value, Refused> {
+        let mut values = Vec::new();
+        loop {
+            let first = self.at;
+            while !matches!(
+                self.kind(self.at),
+                None | Some(TokenKind::Comma | TokenKind::Backslash)
+            ) {
+                self.at += 1;
+            }
+            let text = if first == self.at {
+                ""
+            } else {
+                self.source
+                    .slice(self.span(first).to(self.span(self.at - 1)))
+            };
+            values.push(text.trim_matches('"').to_string());
+            if self.kind(self.at) != Some(TokenKind::Comma) || self.text_ends_at(self.at) {
+                break;
+            }
+            self.at += 1;
+        }
+        Ok(Value::Strings(values))
+    }
+
+    fn expression(&mut self) -> Result<Value, Refused> {
+        let keywords = self.keywords;
+        let is_argument = |word: &str| {
+            let names = keywords.iter().map(|keyword| keyword.name);
+            matches!(names::find(word, names), Match::One(_))
+        };
+        match expression::parse(self.source, self.items, self.at, &is_argument) {
+            Ok((expression, end)) => {
+                self.at = end;
+                Ok(Value::Expression(expression))
+            }
+            Err(problem) => {
+                let error = self
+                    .diagnostics
+                    .error(problem.code, problem.span, problem.message);
+                error.help = problem.help;
+                Err(Refused)
+            }
+        }
+    }
+}

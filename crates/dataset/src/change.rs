@@ -1,0 +1,280 @@
+//! Commands that change the model, and what they do to a [`Dataset`].
+
+pub(crate) use crate::statements::{
+    FRICTION_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS, SFORCE_KEYWORDS,
+    VARIABLE_KEYWORDS,
+};
+
+use crate::checks;
+use crate::commands::read_command;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::model::{
+    Change, ChangeKind, CommandKind, Dataset, Friction, FrictionArguments, Integrator,
+};
+use crate::reading::Reading;
+use crate::source::{Source, Span};
+use crate::statements;
+use crate::syntax::{Language, SyntaxTree};
+
+/// Reads one change of the model.
+///
+/// ```
+/// use dataset::{parse_change, ChangeKind, Source};
+/// let source = Source::from_text("--set", "FRICTION/103, MU_STATIC=0.2".to_string());
+/// let (change, diagnostics) = parse_change(&source);
+/// assert!(diagnostics.is_empty());
+/// assert!(matches!(change.unwrap().kind, ChangeKind::Friction { id: 103, .. }));
+/// ```
+#[must_use]
+pub fn parse_change(source: &Source) -> (Option<Change>, Vec<Diagnostic>) {
+    let mut diagnostics = Diagnostics::new(source);
+    let tree = SyntaxTree::new(source, Language::Statements);
+    let mut change = None;
+    if let [statement] = tree.statements.as_slice() {
+        let command = read_command(&tree, statement, &mut Vec::new(), &mut diagnostics);
+        match command.map(|command| command.kind) {
+            Some(CommandKind::Change(found)) => change = Some(*found),
+            Some(_) => {
+                let span = tree.span(statement);
+                let message = "this command does not change the model";
+                diagnostics.error(Code::InvalidChange, span, message);
+            }
+            None => {}
+        }
+    } else {
+        let span = Span::new(0, source.text().len());
+        diagnostics
+            .error(Code::InvalidChange, span, "expected one statement")
+            .help("write for example FRICTION/1, MU_STATIC = 0.2");
+    }
+    (change, diagnostics.finish())
+}
+
+fn change(reading: &Reading, kind: ChangeKind) -> CommandKind {
+    CommandKind::Change(Box::new(Change {
+        kind,
+        source: reading.diagnostics.source.name().to_string(),
+        span: reading.span,
+    }))
+}
+
+/// Refuses the arguments that a command cannot change.
+fn fixed(reading: &mut Reading, keywords: &[&'static str]) {
+    for keyword in keywords {
+        if reading.has(keyword) {
+            let message = format!("a command cannot change {keyword} of {}", reading.label());
+            let span = reading.place(keyword);
+            reading
+                .diagnostics
+                .error(Code::InvalidChange, span, message);
+        }
+    }
+}
+
+/// VARIABLE as a command.
+pub(crate) fn variable(reading: &mut Reading) -> Option<CommandKind> {
+    if !reading.has("IC") {
+        reading.require("FUNCTION");
+    }
+    let kind = ChangeKind::Variable {
+        id: reading.id,
+        ic: reading.real("IC"),
+        function: reading.expression("FUNCTION"),
+    };
+    Some(change(reading, kind))
+}
+
+/// SFORCE as a command.
+pub(crate) fn single_force(reading: &mut Reading) -> Option<CommandKind> {
+    fixed(
+        reading,
+        &["TRANSLATIONAL", "ROTATIONAL", "I", "J", "ACTIONONLY"],
+    );
+    let kind = ChangeKind::SingleForce {
+        id: reading.id,
+        function: reading.required_expression("FUNCTION"),
+    };
+    Some(change(reading, kind))
+}
+
+/// MOTION as a command.
+pub(crate) fn motion(reading: &mut Reading) -> Option<CommandKind> {
+    const FIXED: [&str; 16] = [
+        "JOINT",
+        "I",
+        "J",
+        "ROTATIONAL",
+        "TRANSLATIONAL",
+        "X",
+        "Y",
+        "Z",
+        "B1",
+        "B2",
+        "B3",
+        "DISPLACEMENT",
+        "VELOCITY",
+        "ACCELERATION",
+        "ICDISP",
+        "ICVEL",
+    ];
+    fixed(reading, &FIXED);
+    let kind = ChangeKind::Motion {
+        id: reading.id,
+        function: reading.required_expression("FUNCTION"),
+    };
+    Some(change(reading, kind))
+}
+
+/// FRICTION as a command.
+pub(crate) fn friction(reading: &mut Reading) -> Option<CommandKind> {
+    fixed(reading, &["JOINT", "FORMULATION", "I_YOKE", "J_YOKE"]);
+    let kind = ChangeKind::Friction {
+        id: reading.id,
+        arguments: Box::new(statements::friction_arguments(reading)),
+    };
+    Some(change(reading, kind))
+}
+
+/// INTEGRATOR as a command.
+pub(crate) fn integrator(reading: &mut Reading) -> Option<CommandKind> {
+    let kind = ChangeKind::Integrator(Box::new(statements::integrator(reading)));
+    Some(change(reading, kind))
+}
+
+/// ACCGRAV as a command.
+pub(crate) fn gravity(reading: &mut Reading) -> Option<CommandKind> {
+    let kind = ChangeKind::Gravity(statements::gravity(reading));
+    Some(change(reading, kind))
+}
+
+impl Friction {
+    /// Takes the values of the arguments that are given.
+    pub(crate) fn take(&mut self, arguments: &FrictionArguments) {
+        self.mu_static = arguments.mu_static.unwrap_or(self.mu_static);
+        self.mu_dynamic = arguments.mu_dynamic.unwrap_or(self.mu_dynamic);
+        self.effect = arguments.effect.unwrap_or(self.effect);
+        self.inputs = arguments.inputs.unwrap_or(self.inputs);
+        self.overlap_delta = arguments.overlap_delta.unwrap_or(self.overlap_delta);
+        self.inactive_static |= arguments.inactive_static;
+        for (quantity, value, _) in &arguments.quantities {
+            self.set(*quantity, *value);
+        }
+    }
+}
+
+impl Integrator {
+    /// Takes the values of the arguments that `other` gives.
+    fn take(&mut self, other: &Self) {
+        self.method = other.method.or(self.method);
+        self.formulation = other.formulation.or(self.formulation);
+        self.error = other.error.or(self.error);
+        self.hinit = other.hinit.or(self.hinit);
+        self.hmax = other.hmax.or(self.hmax);
+        self.hmin = other.hmin.or(self.hmin);
+        self.hratio = other.hratio.or(self.hratio);
+        self.kmax = other.kmax.or(self.kmax);
+        self.maxit = other.maxit.or(self.maxit);
+        self.fixit = other.fixit.or(self.fixit);
+        self.pattern = other.pattern.clone().or_else(|| self.pattern.take());
+        self.corrector = other.corrector.or(self.corrector);
+        self.interpolate = other.interpolate.or(self.interpolate);
+        self.adaptivity = other.adaptivity.or(self.adaptivity);
+        self.alpha = other.alpha.or(self.alpha);
+        self.beta = other.beta.or(self.beta);
+        self.gamma = other.gamma.or(self.gamma);
+    }
+}
+
+impl Dataset {
+    /// Makes a change. If one of the diagnostics is an error, nothing has changed.
+    ///
+    /// The diagnostics belong to the source that the change was read from.
+    ///
+    /// ```
+    /// use dataset::{parse_change, Dataset, Source};
+    /// let source = Source::from_text("--set", "ACCGRAV/KGRAV=-9.81".to_string());
+    /// let mut dataset = Dataset::default();
+    /// assert!(dataset.apply(&parse_change(&source).0.unwrap()).is_empty());
+    /// assert_eq!(dataset.gravity, Some([0.0, 0.0, -9.81]));
+    /// ```
+    pub fn apply(&mut self, change: &Change) -> Vec<Diagnostic> {
+        // The checks below need the name of the source only.
+        let source = Source::from_text(&change.source, String::new());
+        let mut diagnostics = Diagnostics::new(&source);
+        if self.change(change, &mut diagnostics).is_none() {
+            let (name, id) = change.target();
+            let message = format!("there is no {name}/{id}");
+            diagnostics.error(Code::MissingElement, change.span, message);
+        }
+        diagnostics.finish()
+    }
+
+    /// Makes a change if nothing is wrong with it; `None` if its element does not exist.
+    fn change(&mut self, change: &Change, diagnostics: &mut Diagnostics) -> Option<()> {
+        match &change.kind {
+            ChangeKind::Variable { id, ic, function } => {
+                self.variables.position(*id)?;
+                if let Some(function) = function {
+                    if !checks::expression(self, function, diagnostics) {
+                        return Some(());
+                    }
+                    let variable = self.variables.by_id_mut(*id)?;
+                    let before = std::mem::replace(&mut variable.function, function.clone());
+                    if let Some(circle) = checks::circles(self).first() {
+                        checks::report_circle(self, circle, change.span, diagnostics);
+                        self.variables.by_id_mut(*id)?.function = before;
+                        return Some(());
+                    }
+                }
+                let variable = self.variables.by_id_mut(*id)?;
+                variable.ic = ic.or(variable.ic);
+            }
+            ChangeKind::SingleForce { id, function } => {
+                self.single_forces.position(*id)?;
+                if checks::expression(self, function, diagnostics) {
+                    self.single_forces.by_id_mut(*id)?.function = function.clone();
+                }
+            }
+            ChangeKind::Motion { id, function } => {
+                self.motions.position(*id)?;
+                if checks::expression(self, function, diagnostics) {
+                    self.motions.by_id_mut(*id)?.function = function.clone();
+                }
+            }
+            ChangeKind::Friction { id, arguments } => {
+                let friction = self.frictions.by_id_mut(*id)?;
+                friction.take(arguments);
+                let joint = self.joints.by_id(friction.joint);
+                if let (Some(joint), Some(friction)) = (joint, self.frictions.by_id(*id)) {
+                    let span = change.span;
+                    checks::unused_arguments(friction, joint.kind, arguments, span, diagnostics);
+                }
+            }
+            ChangeKind::Integrator(given) => {
+                self.integrator.get_or_insert_default().take(given);
+            }
+            ChangeKind::Gravity(components) => {
+                let gravity = self.gravity.get_or_insert_default();
+                for (old, new) in gravity.iter_mut().zip(components) {
+                    *old = new.unwrap_or(*old);
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+impl Change {
+    /// The statement that changes, and its identifier, 0 where it has none.
+    #[must_use]
+    pub const fn target(&self) -> (&'static str, u32) {
+        match self.kind {
+            ChangeKind::Variable { id, .. } => ("VARIABLE", id),
+            ChangeKind::SingleForce { id, .. } => ("SFORCE", id),
+            ChangeKind::Motion { id, .. } => ("MOTION", id),
+            ChangeKind::Friction { id, .. } => ("FRICTION", id),
+            ChangeKind::Integrator(_) => ("INTEGRATOR", 0),
+            ChangeKind::Gravity(_) => ("ACCGRAV", 0),
+        }
+    }
+}

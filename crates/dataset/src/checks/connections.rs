@@ -1,0 +1,136 @@
+//! The ends of joints, motions and forces, and the markers of parts, fit together.
+
+use crate::diagnostic::{Code, Diagnostics};
+use crate::model::{Dataset, MarkerOwner, MotionTarget};
+use crate::source::Span;
+
+/// Reports connections that cannot be made.
+pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    for joint in &dataset.joints {
+        let name = format!("JOINT/{}", joint.header.id);
+        two_parts(
+            dataset,
+            &name,
+            joint.i,
+            joint.j,
+            joint.header.span,
+            diagnostics,
+        );
+    }
+    for primitive in &dataset.primitives {
+        let name = format!("JPRIM/{}", primitive.header.id);
+        let (i, j) = (primitive.i, primitive.j);
+        two_parts(dataset, &name, i, j, primitive.header.span, diagnostics);
+    }
+    for force in &dataset.single_forces {
+        let name = format!("SFORCE/{}", force.header.id);
+        two_markers(&name, force.i, force.j, force.header.span, diagnostics);
+    }
+    for spring in &dataset.spring_dampers {
+        let name = format!("SPRINGDAMPER/{}", spring.header.id);
+        two_markers(&name, spring.i, spring.j, spring.header.span, diagnostics);
+    }
+    motions(dataset, diagnostics);
+    parts(dataset, diagnostics);
+}
+
+/// I and J are two markers. Returns whether they are.
+fn two_markers(name: &str, i: u32, j: u32, span: Span, diagnostics: &mut Diagnostics) -> bool {
+    if i != j || i == 0 {
+        return true;
+    }
+    let message = format!("I and J of {name} are the same MARKER/{i}");
+    diagnostics.error(Code::InvalidConnection, span, message);
+    false
+}
+
+/// I and J are on two parts.
+fn two_parts(
+    dataset: &Dataset,
+    name: &str,
+    i: u32,
+    j: u32,
+    span: Span,
+    diagnostics: &mut Diagnostics,
+) {
+    if !two_markers(name, i, j, span, diagnostics) {
+        return;
+    }
+    let owner = |id| dataset.markers.by_id(id).map(|marker| marker.owner);
+    let (Some(owner_i), Some(owner_j)) = (owner(i), owner(j)) else {
+        return;
+    };
+    let part = match owner_i {
+        MarkerOwner::Part(id) if id > 0 => format!("PART/{id}"),
+        MarkerOwner::PointMass(id) if id > 0 => format!("POINT_MASS/{id}"),
+        _ => return,
+    };
+    if owner_i == owner_j {
+        let message = format!("both markers of {name} are on {part}");
+        diagnostics
+            .error(Code::InvalidConnection, span, message)
+            .note(format!("I = {i} and J = {j}"))
+            .help("a joint connects two parts");
+    }
+}
+
+fn motions(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    for motion in &dataset.motions {
+        let name = format!("MOTION/{}", motion.header.id);
+        let span = motion.header.span;
+        let (id, freedom, rotation) = match motion.target {
+            MotionTarget::JointRotation(id) => (id, "rotation", true),
+            MotionTarget::JointTranslation(id) => (id, "translation", false),
+            MotionTarget::Markers { i, j, .. } => {
+                two_parts(dataset, &name, i, j, span, diagnostics);
+                continue;
+            }
+        };
+        let Some(joint) = dataset.joints.by_id(id) else {
+            continue;
+        };
+        let kind = joint.kind;
+        let free = if rotation {
+            kind.rotates()
+        } else {
+            kind.translates()
+        };
+        if !free {
+            let message = format!(
+                "{name} drives the {freedom} of JOINT/{id}, which has none: it is {}",
+                kind.keyword()
+            );
+            diagnostics
+                .error(Code::NoSuchFreedom, span, message)
+                .help("REVOLUTE rotates, TRANSLATIONAL translates, CYLINDRICAL does both");
+        }
+    }
+}
+
+/// CM and IM markers are on their part.
+fn parts(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    let owner = |id| dataset.markers.by_id(id).map(|marker| marker.owner);
+    for part in &dataset.parts {
+        for (keyword, marker) in [("CM", part.cm), ("IM", part.im)] {
+            let Some(marker) = marker else { continue };
+            let elsewhere = match owner(marker) {
+                Some(MarkerOwner::Part(id)) => id != part.header.id && id > 0,
+                Some(MarkerOwner::PointMass(_)) => true,
+                _ => false,
+            };
+            if elsewhere {
+                let id = part.header.id;
+                let message = format!("{keyword} of PART/{id}, MARKER/{marker}, is not on it");
+                diagnostics.error(Code::InvalidConnection, part.header.span, message);
+            }
+        }
+    }
+    for mass in &dataset.point_masses {
+        let Some(marker) = mass.cm else { continue };
+        let id = mass.header.id;
+        if owner(marker).is_some_and(|owner| owner != MarkerOwner::PointMass(id)) {
+            let message = format!("CM of POINT_MASS/{id}, MARKER/{marker}, is not on it");
+            diagnostics.error(Code::InvalidConnection, mass.header.span, message);
+        }
+    }
+}

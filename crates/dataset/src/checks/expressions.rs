@@ -1,0 +1,131 @@
+//! The markers and elements that expressions name exist.
+
+use super::references;
+use crate::diagnostic::Diagnostics;
+use crate::expression::{ArgumentKind, ElementKind, Expr, Expression};
+use crate::model::{Dataset, RequestKind};
+
+/// Checks every expression of a dataset.
+pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    let constraints = dataset.constraints.iter().map(|element| &element.function);
+    let motions = dataset.motions.iter().map(|element| &element.function);
+    let forces = dataset
+        .single_forces
+        .iter()
+        .map(|element| &element.function);
+    let variables = dataset.variables.iter().map(|element| &element.function);
+    let requests = dataset
+        .requests
+        .iter()
+        .flat_map(|request| match &request.kind {
+            RequestKind::Functions(functions) => functions.as_slice(),
+            _ => &[],
+        });
+    let all = constraints
+        .chain(motions)
+        .chain(forces)
+        .chain(variables)
+        .chain(requests.flatten());
+    let mut missing = Vec::new();
+    for expression in all {
+        find_missing(dataset, expression, &mut missing);
+    }
+    report(dataset, missing, diagnostics);
+}
+
+/// Checks one expression; returns whether nothing is missing.
+pub(crate) fn check(
+    dataset: &Dataset,
+    expression: &Expression,
+    diagnostics: &mut Diagnostics,
+) -> bool {
+    let mut missing = Vec::new();
+    find_missing(dataset, expression, &mut missing);
+    let complete = missing.is_empty();
+    report(dataset, missing, diagnostics);
+    complete
+}
+
+/// A call that names something that does not exist: what, and the identifier.
+type Missing<'a> = (&'a Expr, ArgumentKind, u32);
+
+fn find_missing<'a>(dataset: &Dataset, expression: &'a Expression, missing: &mut Vec<Missing<'a>>) {
+    expression.root.visit(&mut |node| {
+        let Expr::Call {
+            function,
+            arguments,
+            ..
+        } = node
+        else {
+            return;
+        };
+        for (position, argument) in arguments.iter().enumerate() {
+            let kind = function.argument_kind(position);
+            let Some(id) = argument.as_id() else { continue };
+            if !exists(dataset, kind, id) {
+                missing.push((node, kind, id));
+            }
+        }
+    });
+}
+
+fn report(dataset: &Dataset, missing: Vec<Missing>, diagnostics: &mut Diagnostics) {
+    if missing.is_empty() {
+        return;
+    }
+    let markers = references::sorted(&dataset.markers);
+    let variables = references::sorted(&dataset.variables);
+    for (call, kind, id) in missing {
+        let Expr::Call { span, .. } = call else {
+            continue;
+        };
+        let (name, near) = match kind {
+            ArgumentKind::Element(ElementKind::Variable) => {
+                ("VARIABLE", references::nearest(&variables, id))
+            }
+            ArgumentKind::Element(element) => (statement(element), None),
+            _ => ("MARKER", references::nearest(&markers, id)),
+        };
+        references::report(diagnostics, name, id, *span, near);
+    }
+}
+
+/// Elements that a dataset cannot hold count as present: their functions are refused later.
+fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
+    let element = match kind {
+        ArgumentKind::Real | ArgumentKind::Integer => return true,
+        ArgumentKind::MarkerOrGround if id == 0 => return true,
+        ArgumentKind::Marker | ArgumentKind::MarkerOrGround => {
+            return dataset.markers.position(id).is_some();
+        }
+        ArgumentKind::Element(element) => element,
+    };
+    let position = match element {
+        ElementKind::Joint => dataset.joints.position(id),
+        ElementKind::Primitive => dataset.primitives.position(id),
+        ElementKind::Motion => dataset.motions.position(id),
+        ElementKind::SingleForce => dataset.single_forces.position(id),
+        ElementKind::SpringDamper => dataset.spring_dampers.position(id),
+        ElementKind::Variable => dataset.variables.position(id),
+        ElementKind::Friction => dataset.frictions.position(id),
+        ElementKind::PlantInput => dataset.plant_inputs.position(id),
+        ElementKind::PlantOutput => dataset.plant_outputs.position(id),
+        ElementKind::Other => return true,
+    };
+    position.is_some()
+}
+
+const fn statement(element: ElementKind) -> &'static str {
+    match element {
+        ElementKind::Joint => "JOINT",
+        ElementKind::Primitive => "JPRIM",
+        ElementKind::Motion => "MOTION",
+        ElementKind::SingleForce => "SFORCE",
+        ElementKind::SpringDamper => "SPRINGDAMPER",
+        ElementKind::Variable => "VARIABLE",
+        ElementKind::Friction => "FRICTION",
+        ElementKind::PlantInput => "PINPUT",
+        ElementKind::PlantOutput => "POUTPUT",
+        ElementKind::Other => "element",
+    }
+}

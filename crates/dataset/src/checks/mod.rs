@@ -1,0 +1,52 @@
+//! What must hold for a whole model, checked when every statement is read.
+
+mod connections;
+mod expressions;
+mod friction;
+pub(crate) mod inertia;
+mod references;
+mod variables;
+
+pub(crate) use expressions::check as expression;
+pub(crate) use friction::unused_arguments;
+pub(crate) use variables::{circles, report as report_circle};
+
+use crate::diagnostic::{Code, Diagnostics};
+use crate::source::Span;
+use crate::statements::Builder;
+
+/// Reports everything that is wrong with the model as a whole.
+pub(crate) fn model(builder: &Builder, diagnostics: &mut Diagnostics) {
+    let dataset = &builder.dataset;
+    ground(builder, diagnostics);
+    references::check(builder, diagnostics);
+    connections::check(dataset, diagnostics);
+    expressions::check_all(dataset, diagnostics);
+    variables::check(dataset, diagnostics);
+    friction::check(builder, diagnostics);
+}
+
+/// Exactly one part is the ground.
+fn ground(builder: &Builder, diagnostics: &mut Diagnostics) {
+    let mut grounds = builder.dataset.parts.iter().filter(|part| part.ground);
+    let Some(first) = grounds.next() else {
+        diagnostics
+            .error(
+                Code::Ground,
+                Span::default(),
+                "no part of the model is the ground",
+            )
+            .help("add PART/1, GROUND");
+        return;
+    };
+    let (line, _) = diagnostics.source.line_column(first.header.span.start);
+    for other in grounds {
+        let message = format!("PART/{} is the ground as well", other.header.id);
+        diagnostics
+            .error(Code::Ground, other.header.span, message)
+            .note(format!(
+                "PART/{} on line {line} is the ground",
+                first.header.id
+            ));
+    }
+}

@@ -1,0 +1,338 @@
+//! From text to a [`CommandFile`].
+
+use crate::arguments::{Keyword, Kind, abbreviated, keyword};
+use crate::change;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::model::{Command, CommandFile, CommandKind, Simulate, SimulationKind};
+use crate::names::Name;
+use crate::reader::{RawHead, find};
+use crate::reading::{Head, Reading};
+use crate::source::{Source, Span};
+use crate::statements::STATEMENTS;
+use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items, join};
+
+/// Reads a command file (`.acf`).
+///
+/// All that is wrong is reported in one go, in the order of the file. Reading ends at STOP.
+///
+/// ```
+/// use dataset::{read_commands, CommandKind, Source};
+/// let text = "\nfile/model=pendulum\nsim/dyn, end=2.0, steps=200\nstop\n";
+/// let source = Source::from_text("pendulum.acf", text.to_string());
+/// let (file, diagnostics) = read_commands(&source);
+/// assert!(diagnostics.is_empty());
+/// let CommandKind::Simulate(simulate) = &file.commands[1].kind else { panic!() };
+/// assert_eq!((simulate.end, simulate.steps), (Some(2.0), Some(200)));
+/// assert_eq!(file.commands[1].echo, "sim/dyn, end=2.0, steps=200");
+/// ```
+#[must_use]
+pub fn read_commands(source: &Source) -> (CommandFile, Vec<Diagnostic>) {
+    let mut diagnostics = Diagnostics::new(source);
+    let tree = SyntaxTree::new(source, Language::Commands);
+    let mut file = CommandFile::default();
+    file.commands.extend(first_lines(source, &tree));
+    let mut buffer = Vec::new();
+    let mut time = 0.0;
+    for statement in &tree.statements {
+        let Some(command) = read_command(&tree, statement, &mut buffer, &mut diagnostics) else {
+            continue;
+        };
+        if let CommandKind::Simulate(simulate) = &command.kind {
+            advance(&mut time, simulate, command.span, &mut diagnostics);
+        }
+        let stops = command.kind == CommandKind::Stop;
+        file.commands.push(command);
+        if stops {
+            break;
+        }
+    }
+    (file, diagnostics.finish())
+}
+
+/// Reads one command; `None` after a report, or where it has no effect.
+pub(crate) fn read_command(
+    tree: &SyntaxTree,
+    statement: &StatementTokens,
+    buffer: &mut Vec<Item>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Command> {
+    items(tree, statement, buffer);
+    let raw = RawHead::read(buffer, diagnostics)?;
+    let only_statements = || {
+        let names = STATEMENTS.iter().map(|rule| rule.name);
+        names.filter(|name| COMMANDS.iter().all(|rule| rule.name.full != name.full))
+    };
+    let names = COMMANDS.iter().map(|rule| rule.name);
+    let index = find(
+        "command",
+        raw.name,
+        names.chain(only_statements()),
+        diagnostics,
+    )?;
+    let Some(rule) = COMMANDS.get(index) else {
+        let name = only_statements().nth(index - COMMANDS.len())?.full;
+        let message = format!("stiction cannot change {name} by a command yet");
+        diagnostics.error(Code::UnsupportedStatement, raw.head, message);
+        return None;
+    };
+    let name = rule.name.full;
+    let (identified, keywords, read) = match rule.action {
+        Action::Read(identified, keywords, read) => (identified, keywords, read),
+        Action::Ignored(reason) => {
+            let message = format!("{name} has no effect: {reason}");
+            diagnostics.warning(Code::Ignored, raw.head, message);
+            return None;
+        }
+        Action::Unsupported => {
+            let message = format!("stiction does not carry out {name} yet");
+            diagnostics.error(Code::UnsupportedStatement, raw.head, message);
+            return None;
+        }
+    };
+    let span = tree.span(statement);
+    let head = Head {
+        name,
+        span,
+        head: raw.head,
+        id: raw.id(name, identified, diagnostics),
+        view_name: None,
+    };
+    let mut reading = Reading::new(head, &buffer[raw.rest..], Some(keywords), diagnostics);
+    let kind = read(&mut reading)?;
+    let echo = join(diagnostics.source, buffer);
+    Some(Command { kind, echo, span })
+}
+
+/// The model and the output prefix on the first lines of an old command file.
+fn first_lines(source: &Source, tree: &SyntaxTree) -> Option<Command> {
+    let mut lines = tree
+        .tokens
+        .iter()
+        .take(3)
+        .filter(|token| token.kind == TokenKind::Line)
+        .map(|token| token.span());
+    let span = lines.next()?;
+    let prefix = lines.next();
+    let text = |span| source.slice(span).trim().to_string();
+    Some(Command {
+        kind: CommandKind::Model {
+            path: text(span),
+            output_prefix: prefix.map(text),
+        },
+        echo: text(span),
+        span: prefix.map_or(span, |prefix| span.to(prefix)),
+    })
+}
+
+/// Time goes forward from one SIMULATE to the next.
+fn advance(time: &mut f64, simulate: &Simulate, span: Span, diagnostics: &mut Diagnostics) {
+    if let Some(end) = simulate.end {
+        if end <= *time {
+            let message = format!("END = {end} is not after the time reached so far, {time}");
+            diagnostics
+                .error(Code::OutOfRange, span, message)
+                .help("END is a time; DURATION is the length of a simulation");
+            return;
+        }
+        *time = end;
+    } else if let Some(duration) = simulate.duration {
+        *time += duration;
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Action {
+    /// Whether it has an identifier, its arguments, and their reader.
+    Read(
+        bool,
+        &'static [Keyword],
+        fn(&mut Reading) -> Option<CommandKind>,
+    ),
+    /// A warning with the reason.
+    Ignored(&'static str),
+    /// It is refused.
+    Unsupported,
+}
+
+struct Rule {
+    name: Name,
+    action: Action,
+}
+
+const fn read(
+    full: &'static str,
+    least: &'static str,
+    identified: bool,
+    keywords: &'static [Keyword],
+    read: fn(&mut Reading) -> Option<CommandKind>,
+) -> Rule {
+    Rule {
+        name: Name { full, least },
+        action: Action::Read(identified, keywords, read),
+    }
+}
+
+const fn ignored(full: &'static str, reason: &'static str) -> Rule {
+    Rule {
+        name: Name { full, least: full },
+        action: Action::Ignored(reason),
+    }
+}
+
+const fn unsupported(full: &'static str) -> Rule {
+    Rule {
+        name: Name { full, least: full },
+        action: Action::Unsupported,
+    }
+}
+
+const ASKS: &str = "it asks a question of an interactive program";
+const REPORTS: &str = "what is reported is set by the dataset";
+
+const COMMANDS: &[Rule] = &[
+    read("FILE", "FILE", false, FILE_KEYWORDS, file),
+    read("SIMULATE", "SIM", false, SIMULATE_KEYWORDS, simulate),
+    read("STOP", "STOP", false, &[], |_| Some(CommandKind::Stop)),
+    read(
+        "VARIABLE",
+        "VAR",
+        true,
+        change::VARIABLE_KEYWORDS,
+        change::variable,
+    ),
+    read(
+        "SFORCE",
+        "SF",
+        true,
+        change::SFORCE_KEYWORDS,
+        change::single_force,
+    ),
+    read(
+        "MOTION",
+        "MO",
+        true,
+        change::MOTION_KEYWORDS,
+        change::motion,
+    ),
+    read(
+        "FRICTION",
+        "FRI",
+        true,
+        change::FRICTION_KEYWORDS,
+        change::friction,
+    ),
+    read(
+        "INTEGRATOR",
+        "INT",
+        false,
+        change::INTEGRATOR_KEYWORDS,
+        change::integrator,
+    ),
+    read(
+        "ACCGRAV",
+        "ACC",
+        false,
+        change::GRAVITY_KEYWORDS,
+        change::gravity,
+    ),
+    ignored("DEBUG", "it asks for diagnostics of another program"),
+    ignored("ENVIRONMENT", "stiction reads no environment variables"),
+    ignored("HELP", ASKS),
+    ignored("INFO", ASKS),
+    ignored("MENU", ASKS),
+    ignored("OUTPUT", REPORTS),
+    ignored("REQUEST", REPORTS),
+    ignored("RESULTS", REPORTS),
+    ignored("SHOW", ASKS),
+    ignored("TIME", ASKS),
+    unsupported("ACTIVATE"),
+    unsupported("CONTROL"),
+    unsupported("DEACTIVATE"),
+    unsupported("LINEAR"),
+    unsupported("RELOAD"),
+    unsupported("SAVE"),
+];
+
+const FILE_KEYWORDS: &[Keyword] = &[
+    keyword("MODEL", Kind::Text),
+    keyword("COMMAND", Kind::Text),
+    keyword("OUTPUT_PREFIX", Kind::Text),
+];
+
+fn file(reading: &mut Reading) -> Option<CommandKind> {
+    reading.exclude("COMMAND", &["MODEL", "OUTPUT_PREFIX"]);
+    let path = |reading: &mut Reading, keyword| {
+        let path = reading.text(keyword)?;
+        if path.is_empty() {
+            let span = reading.place(keyword);
+            let message = format!("{keyword} names no file");
+            reading.diagnostics.error(Code::InvalidValue, span, message);
+            return None;
+        }
+        Some(path)
+    };
+    if reading.has("COMMAND") {
+        return path(reading, "COMMAND").map(|path| CommandKind::CommandFile { path });
+    }
+    reading.require("MODEL");
+    let output_prefix = path(reading, "OUTPUT_PREFIX");
+    path(reading, "MODEL").map(|path| CommandKind::Model {
+        path,
+        output_prefix,
+    })
+}
+
+const ALL_LEVELS: &str = "positions, velocities and accelerations are solved together";
+
+const SIMULATE_KEYWORDS: &[Keyword] = &[
+    abbreviated("DYNAMICS", "DY", Kind::Flag),
+    abbreviated("INITIAL_CONDITIONS", "I", Kind::Flag),
+    abbreviated("KINEMATICS", "K", Kind::Flag),
+    abbreviated("QUASISTATICS", "Q", Kind::Flag),
+    keyword("SETTLE", Kind::Flag),
+    abbreviated("STATICS", "STA", Kind::Flag),
+    abbreviated("TRANSIENT", "T", Kind::Flag),
+    abbreviated("END", "E", Kind::Real),
+    abbreviated("DURATION", "DU", Kind::Real),
+    abbreviated("STEPS", "STE", Kind::Integer),
+    abbreviated("DTOUT", "DT", Kind::Real),
+    keyword("DISPLACEMENT", Kind::Unsupported(ALL_LEVELS)),
+    keyword("VELOCITY", Kind::Unsupported(ALL_LEVELS)),
+    keyword("ACCELERATION", Kind::Unsupported(ALL_LEVELS)),
+];
+
+fn simulate(reading: &mut Reading) -> Option<CommandKind> {
+    let kinds = [
+        ("DYNAMICS", SimulationKind::Dynamic),
+        ("INITIAL_CONDITIONS", SimulationKind::InitialConditions),
+        ("KINEMATICS", SimulationKind::Kinematic),
+        ("QUASISTATICS", SimulationKind::QuasiStatic),
+        ("SETTLE", SimulationKind::Settle),
+        ("STATICS", SimulationKind::Static),
+        ("TRANSIENT", SimulationKind::Transient),
+    ];
+    let kind = reading.required_flag("an analysis", &kinds)?;
+    reading.exclude("END", &["DURATION"]);
+    reading.exclude("STEPS", &["DTOUT"]);
+    let needs_end = matches!(
+        kind,
+        SimulationKind::Dynamic
+            | SimulationKind::Kinematic
+            | SimulationKind::QuasiStatic
+            | SimulationKind::Transient
+    );
+    if needs_end && !reading.has("END") && !reading.has("DURATION") {
+        let message = format!("SIMULATE/{} needs END or DURATION", kind.keyword());
+        let span = reading.head;
+        reading
+            .diagnostics
+            .error(Code::MissingArgument, span, message);
+    }
+    Some(CommandKind::Simulate(Simulate {
+        kind,
+        end: reading.real("END"),
+        duration: reading.positive("DURATION"),
+        steps: reading.count("STEPS"),
+        dtout: reading.positive("DTOUT"),
+    }))
+}

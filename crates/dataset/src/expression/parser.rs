@@ -1,0 +1,432 @@
+//! Parses an expression: recursive descent with the precedence of FORTRAN.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = sign { ("*" | "/") sign }
+//! sign    = ("+" | "-") sign | power
+//! power   = primary [ "**" sign ]
+//! primary = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
+//! ```
+
+use super::{ArgumentKind, BinaryOperator, DEEPEST, Expr, Expression, Function};
+use crate::diagnostic::Code;
+use crate::names;
+use crate::source::{Source, Span};
+use crate::syntax::{Item, TokenKind, join, number_value};
+
+/// What is wrong with an expression.
+pub(crate) struct Problem {
+    pub(crate) code: Code,
+    pub(crate) span: Span,
+    pub(crate) message: String,
+    pub(crate) help: Option<String>,
+}
+
+/// The most brackets, calls and signs inside one another.
+const DEEPEST_NESTING: usize = 200;
+
+/// Parses the expression that starts at `items[start]`.
+///
+/// It ends at `\`, at a comma outside brackets, or at the end. A comma that continues a line is
+/// no part of it, unless an argument of the statement follows, which `is_argument` decides: then
+/// it ends there as well. Returns the expression and the position of the item behind it.
+pub(crate) fn parse(
+    source: &Source,
+    items: &[Item],
+    start: usize,
+    is_argument: &dyn Fn(&str) -> bool,
+) -> Result<(Expression, usize), Problem> {
+    let mut parser = Parser {
+        source,
+        items,
+        at: start,
+        used: Vec::new(),
+        nesting: 0,
+        brackets: 0,
+        is_argument,
+    };
+    let (root, _) = parser.sum()?;
+    if let Some(item) = parser.peek() {
+        return Err(parser.unexpected(item, "an operator or the end of the expression"));
+    }
+    let span = match (parser.used.first(), parser.used.last()) {
+        (Some(first), Some(last)) => first.span.to(last.span),
+        _ => Span::default(),
+    };
+    let text = join(source, &parser.used);
+    Ok((Expression { span, root, text }, parser.at))
+}
+
+struct Parser<'a> {
+    source: &'a Source,
+    items: &'a [Item],
+    at: usize,
+    /// The items of the expression so far.
+    used: Vec<Item>,
+    nesting: usize,
+    brackets: usize,
+    is_argument: &'a dyn Fn(&str) -> bool,
+}
+
+/// A tree and its depth.
+type Parsed = Result<(Expr, usize), Problem>;
+
+impl Parser<'_> {
+    /// The next item of the expression; `None` where it ends.
+    fn peek(&mut self) -> Option<Item> {
+        while let Some(item) = self.items.get(self.at).copied() {
+            if item.kind == TokenKind::Backslash {
+                return None;
+            }
+            if item.kind != TokenKind::Comma {
+                return Some(item);
+            }
+            if self.brackets > 0 && !item.continues {
+                return Some(item);
+            }
+            if self.brackets == 0 && (!item.continues || self.argument_follows()) {
+                return None;
+            }
+            self.at += 1;
+        }
+        None
+    }
+
+    /// Whether an argument of the statement follows the comma at `self.at`: a name and `=`, or
+    /// a name where the expression could only go on with an operator.
+    fn argument_follows(&self) -> bool {
+        let Some(word) = self.items.get(self.at + 1) else {
+            return false;
+        };
+        if word.kind != TokenKind::Word || !(self.is_argument)(self.source.slice(word.span)) {
+            return false;
+        }
+        let next = self.items.get(self.at + 2).map(|item| item.kind);
+        let complete = self.used.last().is_some_and(|item| {
+            matches!(
+                item.kind,
+                TokenKind::Number | TokenKind::Word | TokenKind::RightParenthesis
+            )
+        });
+        next == Some(TokenKind::Equals) || complete
+    }
+
+    fn take(&mut self) {
+        self.used.extend(self.items.get(self.at));
+        self.at += 1;
+    }
+
+    fn take_if(&mut self, kind: TokenKind) -> Option<Item> {
+        let item = self.peek().filter(|item| item.kind == kind)?;
+        self.take();
+        Some(item)
+    }
+
+    fn slice(&self, item: Item) -> &str {
+        self.source.slice(item.span)
+    }
+
+    fn problem(&self, code: Code, span: Span, message: String) -> Problem {
+        Problem {
+            code,
+            span,
+            message,
+            help: None,
+        }
+    }
+
+    fn unexpected(&self, item: Item, expected: &str) -> Problem {
+        let found = self.source.excerpt(item.span);
+        let message = format!("expected {expected}, found `{found}`");
+        let mut problem = self.problem(Code::Expression, item.span, message);
+        let after_break = self.at > 0 && self.items[self.at - 1].continues;
+        if found == "^" {
+            problem.help = Some("a power is written `**`".to_string());
+        } else if after_break {
+            problem.help = Some(
+                "the comma that starts a continued line is not part of the expression; \
+                 end the line before with a comma to separate arguments"
+                    .to_string(),
+            );
+        }
+        problem
+    }
+
+    fn unexpected_end(&self, expected: &str) -> Problem {
+        let span = self.used.last().map_or_else(
+            || {
+                let before = self.at.min(self.items.len()).saturating_sub(1);
+                self.items
+                    .get(before)
+                    .map_or(Span::default(), |item| item.span)
+            },
+            |item| item.span,
+        );
+        let message = format!("the expression ends here, {expected} is missing");
+        self.problem(Code::Expression, span, message)
+    }
+
+    fn enter(&mut self, item: Item) -> Result<(), Problem> {
+        self.nesting += 1;
+        if self.nesting > DEEPEST_NESTING {
+            let message = format!("more than {DEEPEST_NESTING} levels of brackets and signs");
+            return Err(self.too_deep(item.span, message));
+        }
+        Ok(())
+    }
+
+    fn too_deep(&self, span: Span, message: String) -> Problem {
+        let mut problem = self.problem(Code::Expression, span, message);
+        problem.help = Some("split the expression into several VARIABLEs".to_string());
+        problem
+    }
+
+    fn binary(&self, item: Item, left: (Expr, usize), right: (Expr, usize)) -> Parsed {
+        let operator = match item.kind {
+            TokenKind::Plus => BinaryOperator::Add,
+            TokenKind::Minus => BinaryOperator::Subtract,
+            TokenKind::Star => BinaryOperator::Multiply,
+            TokenKind::Slash => BinaryOperator::Divide,
+            _ => BinaryOperator::Power,
+        };
+        let depth = left.1.max(right.1) + 1;
+        if depth > DEEPEST {
+            let message = format!("an expression of more than {DEEPEST} operations in a row");
+            return Err(self.too_deep(item.span, message));
+        }
+        let root = Expr::Binary {
+            operator,
+            left: Box::new(left.0),
+            right: Box::new(right.0),
+        };
+        Ok((root, depth))
+    }
+
+    fn sum(&mut self) -> Parsed {
+        let mut left = self.product()?;
+        while let Some(item) = self.peek() {
+            if !matches!(item.kind, TokenKind::Plus | TokenKind::Minus) {
+                break;
+            }
+            self.take();
+            let right = self.product()?;
+            left = self.binary(item, left, right)?;
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Parsed {
+        let mut left = self.sign()?;
+        while let Some(item) = self.peek() {
+            if !matches!(item.kind, TokenKind::Star | TokenKind::Slash) {
+                break;
+            }
+            self.take();
+            let right = self.sign()?;
+            left = self.binary(item, left, right)?;
+        }
+        Ok(left)
+    }
+
+    fn sign(&mut self) -> Parsed {
+        let Some(item) = self.peek() else {
+            return Err(self.unexpected_end("an operand"));
+        };
+        if !matches!(item.kind, TokenKind::Plus | TokenKind::Minus) {
+            return self.power();
+        }
+        self.enter(item)?;
+        self.take();
+        let (operand, depth) = self.sign()?;
+        self.nesting -= 1;
+        if item.kind == TokenKind::Plus {
+            return Ok((operand, depth));
+        }
+        if depth >= DEEPEST {
+            let message = format!("an expression of more than {DEEPEST} operations in a row");
+            return Err(self.too_deep(item.span, message));
+        }
+        Ok((Expr::Negate(Box::new(operand)), depth + 1))
+    }
+
+    fn power(&mut self) -> Parsed {
+        let base = self.primary()?;
+        let Some(item) = self.take_if(TokenKind::Power) else {
+            return Ok(base);
+        };
+        self.enter(item)?;
+        let exponent = self.sign()?;
+        self.nesting -= 1;
+        self.binary(item, base, exponent)
+    }
+
+    fn primary(&mut self) -> Parsed {
+        let Some(item) = self.peek() else {
+            return Err(self.unexpected_end("an operand"));
+        };
+        match item.kind {
+            TokenKind::Number => {
+                let text = self.slice(item);
+                let Some(value) = number_value(text) else {
+                    let message = format!("`{}` is not a number", self.source.excerpt(item.span));
+                    return Err(self.problem(Code::InvalidValue, item.span, message));
+                };
+                if !value.is_finite() {
+                    let text = self.source.excerpt(item.span);
+                    let message = format!("`{text}` is too large for a number");
+                    return Err(self.problem(Code::OutOfRange, item.span, message));
+                }
+                self.take();
+                Ok((Expr::Number(value), 1))
+            }
+            TokenKind::Word => self.name(item),
+            TokenKind::LeftParenthesis => {
+                self.enter(item)?;
+                self.take();
+                self.brackets += 1;
+                let inner = self.sum()?;
+                self.close(item)?;
+                self.nesting -= 1;
+                Ok(inner)
+            }
+            _ => Err(self.unexpected(item, "a number, a name or `(`")),
+        }
+    }
+
+    /// Takes the bracket that closes the one at `open`.
+    fn close(&mut self, open: Item) -> Result<Item, Problem> {
+        let Some(item) = self.peek() else {
+            let message = "this bracket is not closed".to_string();
+            return Err(self.problem(Code::Expression, open.span, message));
+        };
+        if item.kind != TokenKind::RightParenthesis {
+            return Err(self.unexpected(item, "an operator, `,` or `)`"));
+        }
+        self.brackets -= 1;
+        self.take();
+        Ok(item)
+    }
+
+    fn name(&mut self, item: Item) -> Parsed {
+        let name = self.slice(item).to_ascii_uppercase();
+        self.take();
+        let open = self
+            .peek()
+            .filter(|next| next.kind == TokenKind::LeftParenthesis);
+        if let Some(open) = open {
+            return match Function::from_name(&name) {
+                Some(function) => self.call(item, function, open),
+                None => Err(self.unknown(item, &name)),
+            };
+        }
+        let root = match name.as_str() {
+            "TIME" => Expr::Time,
+            "MODE" => Expr::Mode,
+            "PI" => Expr::Number(std::f64::consts::PI),
+            "DTOR" => Expr::Number(std::f64::consts::PI / 180.0),
+            "RTOD" => Expr::Number(180.0 / std::f64::consts::PI),
+            _ => return Err(self.unknown(item, &name)),
+        };
+        Ok((root, 1))
+    }
+
+    fn unknown(&self, item: Item, name: &str) -> Problem {
+        let shown = self.source.excerpt(item.span);
+        let message = format!("no function or constant is called {shown}");
+        let mut problem = self.problem(Code::UnknownFunction, item.span, message);
+        let functions = Function::ALL.iter().map(|function| function.name());
+        let constants = ["TIME", "MODE", "PI", "DTOR", "RTOD"].into_iter();
+        problem.help = if let Some(function) = Function::from_name(name) {
+            Some(format!("{} takes arguments in brackets", function.name()))
+        } else {
+            names::nearest(name, functions.chain(constants)).map(|near| format!("is {near} meant?"))
+        };
+        problem
+    }
+
+    fn call(&mut self, name: Item, function: Function, open: Item) -> Parsed {
+        self.enter(open)?;
+        self.take();
+        self.brackets += 1;
+        let mut arguments = Vec::new();
+        let mut deepest = 0;
+        let empty = self
+            .peek()
+            .is_some_and(|item| item.kind == TokenKind::RightParenthesis);
+        while !empty {
+            let first = self.used.len();
+            let (argument, depth) = self.sum()?;
+            let place = self.used.get(first).map_or(open.span, |item| item.span);
+            let place = self.used.last().map_or(place, |item| place.to(item.span));
+            self.check_argument(function, arguments.len(), &argument, place)?;
+            arguments.push(argument);
+            deepest = deepest.max(depth);
+            let separator = match (function, arguments.len()) {
+                (Function::If, 1) => TokenKind::Colon,
+                _ => TokenKind::Comma,
+            };
+            match self.peek() {
+                Some(item) if item.kind == separator => self.take(),
+                Some(item) if separator == TokenKind::Colon => {
+                    let mut problem = self.unexpected(item, "`:` after the condition of IF");
+                    problem.help = Some("write IF(condition: below 0, at 0, above 0)".to_string());
+                    return Err(problem);
+                }
+                _ => break,
+            }
+        }
+        let close = self.close(open)?;
+        self.nesting -= 1;
+        let span = name.span.to(close.span);
+        let (least, most) = function.argument_count();
+        if !(least..=most).contains(&arguments.len()) {
+            let count = match most {
+                _ if least == most => least.to_string(),
+                _ => format!("{least} to {most}"),
+            };
+            let message = format!(
+                "{} takes {count} argument{}, found {}",
+                function.name(),
+                if most == 1 { "" } else { "s" },
+                arguments.len()
+            );
+            return Err(self.problem(Code::ArgumentCount, span, message));
+        }
+        if deepest >= DEEPEST {
+            let message = format!("an expression of more than {DEEPEST} operations in a row");
+            return Err(self.too_deep(span, message));
+        }
+        let root = Expr::Call {
+            function,
+            arguments,
+            span,
+        };
+        Ok((root, deepest + 1))
+    }
+
+    fn check_argument(
+        &self,
+        function: Function,
+        position: usize,
+        argument: &Expr,
+        span: Span,
+    ) -> Result<(), Problem> {
+        let expected = match (function.argument_kind(position), argument.as_id()) {
+            (ArgumentKind::Real, _) => return Ok(()),
+            (ArgumentKind::Integer, Some(_)) => return Ok(()),
+            (ArgumentKind::MarkerOrGround, Some(_)) => return Ok(()),
+            (ArgumentKind::Marker | ArgumentKind::Element(_), Some(1..)) => return Ok(()),
+            (ArgumentKind::Integer, None) => "a whole number",
+            (ArgumentKind::Marker, _) => "the number of a marker",
+            (ArgumentKind::MarkerOrGround, None) => "the number of a marker, or 0 for the ground",
+            (ArgumentKind::Element(_), _) => "the number of an element",
+        };
+        let message = format!(
+            "argument {} of {} is {expected}, found `{}`",
+            position + 1,
+            function.name(),
+            self.source.excerpt(span)
+        );
+        Err(self.problem(Code::InvalidValue, span, message))
+    }
+}

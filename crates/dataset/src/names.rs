@@ -1,0 +1,130 @@
+//! Names and their abbreviations: which one is meant, and which one might have been meant.
+
+/// A name with the shortest prefix that stands for it where several names share the prefix.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Name {
+    /// The whole name, in capitals.
+    pub(crate) full: &'static str,
+    /// Its least abbreviation.
+    pub(crate) least: &'static str,
+}
+
+/// What a word means among a list of names.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Match {
+    /// The name at this position.
+    One(usize),
+    /// Several names start with the word.
+    Several(Vec<&'static str>),
+    /// No name starts with the word; the nearest one, if it is near.
+    None(Option<&'static str>),
+}
+
+/// Finds the name that `word` means: itself, else the only name that starts with it, else the
+/// only one of these whose least abbreviation is no longer than the word.
+pub(crate) fn find(word: &str, names: impl Iterator<Item = Name> + Clone) -> Match {
+    let starts = |name: &Name| {
+        let bytes = name.full.as_bytes();
+        bytes.len() >= word.len() && bytes[..word.len()].eq_ignore_ascii_case(word.as_bytes())
+    };
+    let mut found = names.clone().enumerate().filter(|(_, name)| starts(name));
+    let Some((first, name)) = found.next() else {
+        return Match::None(nearest(word, names.map(|name| name.full)));
+    };
+    let others: Vec<(usize, Name)> = found.collect();
+    if name.full.len() == word.len() || others.is_empty() {
+        return Match::One(first);
+    }
+    if let Some((exact, _)) = others
+        .iter()
+        .find(|(_, name)| name.full.len() == word.len())
+    {
+        return Match::One(*exact);
+    }
+    let all = || std::iter::once((first, name)).chain(others.iter().copied());
+    let mut allowed = all().filter(|(_, name)| word.len() >= name.least.len());
+    match (allowed.next(), allowed.next()) {
+        (Some((index, _)), None) => Match::One(index),
+        _ => Match::Several(all().map(|(_, name)| name.full).collect()),
+    }
+}
+
+/// The name with the fewest edits from `word`, if these are at most a third of its letters.
+pub(crate) fn nearest(
+    word: &str,
+    names: impl Iterator<Item = &'static str>,
+) -> Option<&'static str> {
+    let word = word.to_ascii_uppercase();
+    if word.len() > LONGEST_NAME {
+        return None;
+    }
+    names
+        .map(|name| (edits(word.as_bytes(), name.as_bytes()), name))
+        .filter(|(edits, name)| *edits <= 1.max(name.len().max(word.len()) / 3))
+        .filter(|(edits, name)| *edits < name.len())
+        .min_by_key(|(edits, _)| *edits)
+        .map(|(_, name)| name)
+}
+
+/// No name of the language is longer than this.
+const LONGEST_NAME: usize = 40;
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+fn edits(a: &[u8], b: &[u8]) -> usize {
+    let mut before_last = vec![0; b.len() + 1];
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1; b.len() + 1];
+        for j in 0..b.len() {
+            let replaced = last[j] + usize::from(a[i] != b[j]);
+            row[j + 1] = replaced.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                row[j + 1] = row[j + 1].min(before_last[j - 1] + 1);
+            }
+        }
+        before_last = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NAMES: [Name; 4] = [
+        Name {
+            full: "REQUEST",
+            least: "R",
+        },
+        Name {
+            full: "RESULTS",
+            least: "RES",
+        },
+        Name {
+            full: "PART",
+            least: "P",
+        },
+        Name {
+            full: "PARTS",
+            least: "PARTS",
+        },
+    ];
+
+    #[test]
+    fn the_exact_name_wins_then_the_only_one_then_the_least_abbreviation() {
+        let find = |word| find(word, NAMES.into_iter());
+        assert_eq!(find("part"), Match::One(2));
+        assert_eq!(find("resu"), Match::One(1));
+        assert_eq!(find("RE"), Match::One(0));
+        assert_eq!(find("RES"), Match::One(1));
+        assert_eq!(find("PRAT"), Match::None(Some("PART")));
+        assert_eq!(find("XYZZY"), Match::None(None));
+    }
+
+    #[test]
+    fn edits_count_swaps_once() {
+        assert_eq!(edits(b"PRAT", b"PART"), 1);
+        assert_eq!(edits(b"", b"PART"), 4);
+        assert_eq!(edits(b"MU_STATC", b"MU_STATIC"), 1);
+    }
+}

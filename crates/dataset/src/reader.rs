@@ -1,0 +1,231 @@
+//! From text to a [`Dataset`].
+
+use crate::checks;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::model::Dataset;
+use crate::names::{self, Match, Name};
+use crate::reading::{Head, Reading};
+use crate::source::{Source, Span};
+use crate::statements::{Action, Builder, STATEMENTS};
+use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items};
+
+/// Reads a dataset (`.adm`).
+///
+/// All that is wrong is reported in one go, in the order of the file. The dataset can be used
+/// only if none of the diagnostics is an error.
+///
+/// ```
+/// use dataset::{read_dataset, Source};
+/// let text = "A pendulum
+/// UNITS/SYSTEM=MKS
+/// PART/1, GROUND
+/// MARKER/1, PART=1
+/// PART/2, MASS=1, CM=20, IP=0.1, 0.1, 0.1
+/// MARKER/20, PART=2, QP=0, 0, -1
+/// MARKER/2, PART=2
+/// JOINT/1, REVOLUTE, I=2, J=1
+/// ACCGRAV/KGRAV=-9.81
+/// END";
+/// let source = Source::from_text("pendulum.adm", text.to_string());
+/// let (dataset, diagnostics) = read_dataset(&source);
+/// assert!(diagnostics.is_empty());
+/// assert_eq!(dataset.joints[0].i, 2);
+/// assert_eq!(dataset.markers.by_id(20).unwrap().qp, [0.0, 0.0, -1.0]);
+/// ```
+#[must_use]
+pub fn read_dataset(source: &Source) -> (Dataset, Vec<Diagnostic>) {
+    let mut diagnostics = Diagnostics::new(source);
+    let tree = SyntaxTree::new(source, Language::Dataset);
+    let mut builder = Builder::default();
+    builder.dataset.title = title(source, &tree, &mut diagnostics);
+    if tree.statements.is_empty() {
+        diagnostics
+            .error(
+                Code::Empty,
+                Span::default(),
+                "this dataset holds no statement",
+            )
+            .help("the first line is the title; statements follow it");
+        return (builder.dataset, diagnostics.finish());
+    }
+    let mut buffer = Vec::new();
+    for statement in &tree.statements {
+        items(&tree, statement, &mut buffer);
+        read_statement(&tree, statement, &buffer, &mut builder, &mut diagnostics);
+    }
+    checks::model(&builder, &mut diagnostics);
+    (builder.dataset, diagnostics.finish())
+}
+
+/// The first line; a warning where it looks like a statement.
+fn title(source: &Source, tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> String {
+    let Some(token) = tree
+        .tokens
+        .first()
+        .filter(|token| token.kind == TokenKind::Line)
+    else {
+        return String::new();
+    };
+    let text = source.slice(token.span());
+    let (before, _) = text.split_once('/').unwrap_or_default();
+    let is_statement = STATEMENTS
+        .iter()
+        .any(|rule| rule.name.full.eq_ignore_ascii_case(before.trim()));
+    if is_statement {
+        diagnostics
+            .warning(
+                Code::TitleIsStatement,
+                token.span(),
+                "this line looks like a statement, but the first line is the title",
+            )
+            .help("put a title, which may be empty, before it");
+    }
+    text.trim_end().to_string()
+}
+
+fn read_statement(
+    tree: &SyntaxTree,
+    statement: &StatementTokens,
+    items: &[Item],
+    builder: &mut Builder,
+    diagnostics: &mut Diagnostics,
+) {
+    let Some(raw) = RawHead::read(items, diagnostics) else {
+        return;
+    };
+    let names = STATEMENTS.iter().map(|rule| rule.name);
+    let Some(index) = find("statement", raw.name, names, diagnostics) else {
+        return;
+    };
+    let rule = &STATEMENTS[index];
+    let name = rule.name.full;
+    let (keywords, read) = match rule.action {
+        Action::Read(keywords, read) => (keywords, read),
+        Action::Ignored(reason) => {
+            let message = format!("{name} has no effect: {reason}");
+            diagnostics.warning(Code::Ignored, raw.head, message);
+            return;
+        }
+        Action::Unsupported => {
+            let message = format!("stiction does not simulate {name} yet");
+            diagnostics.error(Code::UnsupportedStatement, raw.head, message);
+            return;
+        }
+    };
+    let id = raw.id(name, rule.identified, diagnostics);
+    if !rule.identified {
+        if builder.singles.contains(&name) {
+            let message = format!("{name} is there already");
+            diagnostics.error(Code::DuplicateStatement, raw.head, message);
+        }
+        builder.singles.push(name);
+    }
+    let head = Head {
+        name,
+        span: tree.span(statement),
+        head: raw.head,
+        id,
+        view_name: view_name(tree, statement, diagnostics.source),
+    };
+    let mut reading = Reading::new(head, &items[raw.rest..], keywords, diagnostics);
+    read(&mut reading, builder);
+}
+
+/// The name in the last `adams_view_name='...'` comment before a statement.
+fn view_name(tree: &SyntaxTree, statement: &StatementTokens, source: &Source) -> Option<String> {
+    let comment = source.slice(tree.tokens[statement.name_comment?].span());
+    let (_, name) = comment.split_once("adams_view_name")?;
+    let name = name.trim().strip_prefix('=')?.trim().strip_prefix('\'')?;
+    Some(name[..name.rfind('\'')?].to_string())
+}
+
+/// The name and identifier at the start of a statement or command.
+pub(crate) struct RawHead {
+    /// The name.
+    pub(crate) name: Span,
+    /// The name and what belongs to it.
+    pub(crate) head: Span,
+    /// The item that should be the identifier.
+    number: Option<Item>,
+    /// The position of the first item behind it.
+    pub(crate) rest: usize,
+}
+
+impl RawHead {
+    /// Reads the head; `None` after a report if there is none.
+    pub(crate) fn read(items: &[Item], diagnostics: &mut Diagnostics) -> Option<Self> {
+        let first = items.first()?;
+        if first.kind != TokenKind::Word {
+            let found = diagnostics.source.excerpt(first.span);
+            let message = format!("expected the name of a statement, found `{found}`");
+            diagnostics.error(Code::Syntax, first.span, message);
+            return None;
+        }
+        let slash = items
+            .get(1)
+            .is_some_and(|item| item.kind == TokenKind::Slash);
+        let number = items
+            .get(2)
+            .filter(|item| slash && item.kind == TokenKind::Number);
+        let rest = 1 + usize::from(slash) + usize::from(number.is_some());
+        Some(Self {
+            name: first.span,
+            head: first.span.to(items[rest - 1].span),
+            number: number.copied(),
+            rest,
+        })
+    }
+
+    /// The identifier; 0 where there is none, which is reported if there should be one.
+    pub(crate) fn id(&self, name: &str, identified: bool, diagnostics: &mut Diagnostics) -> u32 {
+        let Some(number) = self.number else {
+            if identified {
+                diagnostics
+                    .error(Code::InvalidId, self.head, format!("{name} needs a number"))
+                    .help(format!("write {name}/1"));
+            }
+            return 0;
+        };
+        if !identified {
+            let message = format!("{name} has no number");
+            diagnostics
+                .error(Code::InvalidId, number.span, message)
+                .help(format!("write {name}/ and the arguments"));
+            return 0;
+        }
+        let text = diagnostics.source.slice(number.span);
+        if let Some(id) = text.parse().ok().filter(|id| *id > 0) {
+            return id;
+        }
+        let shown = diagnostics.source.excerpt(number.span);
+        let message = format!("{name}/{shown}: numbers of elements are whole and positive");
+        diagnostics.error(Code::InvalidId, number.span, message);
+        0
+    }
+}
+
+/// The position of the name that `span` means; `None` after a report if it means none.
+pub(crate) fn find(
+    what: &str,
+    span: Span,
+    names: impl Iterator<Item = Name> + Clone,
+    diagnostics: &mut Diagnostics,
+) -> Option<usize> {
+    let word = diagnostics.source.slice(span);
+    match names::find(word, names) {
+        Match::One(index) => return Some(index),
+        Match::Several(fits) => {
+            let message = format!("`{word}` can mean {}", fits.join(" or "));
+            diagnostics
+                .error(Code::AmbiguousName, span, message)
+                .help("write more letters");
+        }
+        Match::None(near) => {
+            let found = diagnostics.source.excerpt(span);
+            let message = format!("no {what} is called {found}");
+            let error = diagnostics.error(Code::UnknownStatement, span, message);
+            error.help = near.map(|near| format!("is {near} meant?"));
+        }
+    }
+    None
+}

@@ -1,0 +1,327 @@
+//! One statement with its arguments, and typed access to them.
+
+use crate::arguments::{self, Argument, Keyword, Value};
+use crate::diagnostic::{Code, Diagnostics};
+use crate::expression::{Expr, Expression};
+use crate::model::Header;
+use crate::names::{self, Match, Name};
+use crate::source::Span;
+use crate::syntax::Item;
+
+/// A statement whose arguments are read.
+pub(crate) struct Reading<'a, 's> {
+    /// Its name, in full.
+    pub(crate) name: &'static str,
+    /// From its name to its last argument.
+    pub(crate) span: Span,
+    /// Its name and identifier.
+    pub(crate) head: Span,
+    /// The identifier; 0 where it is missing, which has been reported.
+    pub(crate) id: u32,
+    /// The name from the comment before it.
+    pub(crate) view_name: Option<String>,
+    /// Everything behind the name and identifier.
+    pub(crate) items: &'a [Item],
+    pub(crate) diagnostics: &'a mut Diagnostics<'s>,
+    arguments: Vec<Argument>,
+    unread: Vec<&'static str>,
+}
+
+/// Name, place and identifier of a statement.
+pub(crate) struct Head {
+    pub(crate) name: &'static str,
+    pub(crate) span: Span,
+    pub(crate) head: Span,
+    pub(crate) id: u32,
+    pub(crate) view_name: Option<String>,
+}
+
+impl<'a, 's> Reading<'a, 's> {
+    /// Reads the arguments, which follow the head of the statement in `items`.
+    pub(crate) fn new(
+        head: Head,
+        items: &'a [Item],
+        keywords: Option<&[Keyword]>,
+        diagnostics: &'a mut Diagnostics<'s>,
+    ) -> Self {
+        let (arguments, unread) = match keywords {
+            Some(keywords) => arguments::read(items, 0, head.name, keywords, diagnostics),
+            None => (Vec::new(), Vec::new()),
+        };
+        Self {
+            name: head.name,
+            span: head.span,
+            head: head.head,
+            id: head.id,
+            view_name: head.view_name,
+            items,
+            diagnostics,
+            arguments,
+            unread,
+        }
+    }
+
+    /// `NAME/id`, or the name alone without identifier, for messages.
+    pub(crate) fn label(&self) -> String {
+        match self.id {
+            0 => self.name.to_string(),
+            id => format!("{}/{id}", self.name),
+        }
+    }
+
+    pub(crate) fn header(&self) -> Header {
+        Header {
+            id: self.id,
+            name: self.view_name.clone(),
+            span: self.span,
+        }
+    }
+
+    pub(crate) fn argument(&self, keyword: &str) -> Option<&Argument> {
+        self.arguments
+            .iter()
+            .find(|argument| argument.keyword == keyword)
+    }
+
+    /// Whether the argument is there, be it read, refused or without effect.
+    pub(crate) fn has(&self, keyword: &str) -> bool {
+        self.argument(keyword).is_some() || self.unread.contains(&keyword)
+    }
+
+    /// The place of an argument, else that of the head.
+    pub(crate) fn place(&self, keyword: &str) -> Span {
+        self.argument(keyword)
+            .map_or(self.head, |argument| argument.span)
+    }
+
+    /// Reports that a required argument is missing, unless it was there and refused.
+    pub(crate) fn require(&mut self, keyword: &'static str) {
+        if !self.has(keyword) {
+            let message = format!("{} needs {keyword}", self.label());
+            self.diagnostics
+                .error(Code::MissingArgument, self.head, message);
+        }
+    }
+
+    fn out_of_range(&mut self, keyword: &str, range: &str) {
+        let span = self
+            .argument(keyword)
+            .map_or(self.head, |argument| argument.value_span);
+        let message = format!("{keyword} must be {range}");
+        self.diagnostics.error(Code::OutOfRange, span, message);
+    }
+
+    /// A number.
+    pub(crate) fn real(&self, keyword: &str) -> Option<f64> {
+        match &self.argument(keyword)?.value {
+            Value::Reals(values) => values.first().map(|(value, _)| *value),
+            _ => None,
+        }
+    }
+
+    /// A number greater than zero.
+    pub(crate) fn positive(&mut self, keyword: &str) -> Option<f64> {
+        let value = self.real(keyword)?;
+        if value > 0.0 {
+            return Some(value);
+        }
+        self.out_of_range(keyword, "greater than 0");
+        None
+    }
+
+    /// A number that is not negative.
+    pub(crate) fn not_negative(&mut self, keyword: &str) -> Option<f64> {
+        let value = self.real(keyword)?;
+        if value >= 0.0 {
+            return Some(value);
+        }
+        self.out_of_range(keyword, "0 or greater");
+        None
+    }
+
+    /// Numbers with their places.
+    pub(crate) fn reals(&self, keyword: &str) -> &[(f64, Span)] {
+        match self.argument(keyword).map(|argument| &argument.value) {
+            Some(Value::Reals(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// Three numbers.
+    pub(crate) fn vector(&self, keyword: &str) -> Option<[f64; 3]> {
+        match self.reals(keyword) {
+            [(x, _), (y, _), (z, _)] => Some([*x, *y, *z]),
+            _ => None,
+        }
+    }
+
+    /// A whole number.
+    pub(crate) fn integer(&self, keyword: &str) -> Option<u32> {
+        self.ids(keyword).first().map(|(value, _)| *value)
+    }
+
+    /// A whole number greater than zero.
+    pub(crate) fn count(&mut self, keyword: &str) -> Option<u32> {
+        let value = self.integer(keyword)?;
+        if value > 0 {
+            return Some(value);
+        }
+        self.out_of_range(keyword, "1 or greater");
+        None
+    }
+
+    /// Whole numbers with their places.
+    pub(crate) fn ids(&self, keyword: &str) -> &[(u32, Span)] {
+        match self.argument(keyword).map(|argument| &argument.value) {
+            Some(Value::Integers(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// A text.
+    pub(crate) fn text(&self, keyword: &str) -> Option<String> {
+        match &self.argument(keyword)?.value {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+
+    /// Texts.
+    pub(crate) fn strings(&self, keyword: &str) -> Vec<String> {
+        match self.argument(keyword).map(|argument| &argument.value) {
+            Some(Value::Strings(texts)) => texts.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// An expression.
+    pub(crate) fn expression(&self, keyword: &str) -> Option<Expression> {
+        match &self.argument(keyword)?.value {
+            Value::Expression(expression) => Some(expression.clone()),
+            _ => None,
+        }
+    }
+
+    /// An expression that must be there; where it is not, that is reported and a zero is given.
+    pub(crate) fn required_expression(&mut self, keyword: &'static str) -> Expression {
+        self.require(keyword);
+        self.expression(keyword).unwrap_or(Expression {
+            span: self.head,
+            root: Expr::Number(0.0),
+            text: String::new(),
+        })
+    }
+
+    /// A list of names, each one of `choices`.
+    pub(crate) fn choices<T: Copy>(
+        &mut self,
+        keyword: &'static str,
+        choices: &[(&'static str, T)],
+    ) -> Option<Vec<T>> {
+        let Value::Words(words) = &self.argument(keyword)?.value else {
+            return None;
+        };
+        let words = words.clone();
+        words
+            .into_iter()
+            .map(|span| self.choose(keyword, span, choices))
+            .collect()
+    }
+
+    /// One name out of `choices`.
+    pub(crate) fn choice<T: Copy>(
+        &mut self,
+        keyword: &'static str,
+        choices: &[(&'static str, T)],
+    ) -> Option<T> {
+        self.choices(keyword, choices)?.first().copied()
+    }
+
+    fn choose<T: Copy>(
+        &mut self,
+        keyword: &str,
+        span: Span,
+        choices: &[(&'static str, T)],
+    ) -> Option<T> {
+        let word = self.diagnostics.source.slice(span);
+        let names = choices.iter().map(|(full, _)| Name { full, least: full });
+        let near = match names::find(word, names) {
+            Match::One(index) => return choices.get(index).map(|(_, value)| *value),
+            Match::Several(_) => None,
+            Match::None(near) => near,
+        };
+        let message = format!(
+            "{keyword} cannot be {}",
+            self.diagnostics.source.excerpt(span)
+        );
+        let help = match near {
+            Some(near) => format!("is {near} meant?"),
+            None => {
+                let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+                format!("it can be {}", names.join(", "))
+            }
+        };
+        self.diagnostics
+            .error(Code::InvalidValue, span, message)
+            .help(help);
+        None
+    }
+
+    /// T and F, as in PATTERN.
+    pub(crate) fn pattern(&mut self, keyword: &'static str) -> Option<Vec<bool>> {
+        self.choices(keyword, &[("TRUE", true), ("FALSE", false)])
+    }
+
+    /// ON or OFF.
+    pub(crate) fn switch(&mut self, keyword: &'static str) -> Option<bool> {
+        self.choice(keyword, &[("ON", true), ("OFF", false)])
+    }
+
+    /// The only one of several flags that is given.
+    pub(crate) fn one_flag<T: Copy>(&mut self, flags: &[(&'static str, T)]) -> Option<T> {
+        let mut given = flags.iter().filter(|(name, _)| self.has(name));
+        let (first, value) = given.next()?;
+        if let Some((second, _)) = given.next() {
+            let message = format!("{} cannot be both {first} and {second}", self.label());
+            let span = self.place(second);
+            self.diagnostics
+                .error(Code::ConflictingArguments, span, message);
+        }
+        Some(*value)
+    }
+
+    /// Like [`Reading::one_flag`] for flags of which one must be given.
+    pub(crate) fn required_flag<T: Copy>(
+        &mut self,
+        what: &str,
+        flags: &[(&'static str, T)],
+    ) -> Option<T> {
+        let given = self.one_flag(flags);
+        if given.is_none() {
+            let names: Vec<&str> = flags.iter().map(|(name, _)| *name).collect();
+            let message = format!("{} needs {what}", self.label());
+            self.diagnostics
+                .error(Code::MissingArgument, self.head, message)
+                .help(format!("add one of {}", names.join(", ")));
+        }
+        given
+    }
+
+    /// Reports every argument of `second` that is given although `first` is.
+    pub(crate) fn exclude(&mut self, first: &'static str, second: &[&'static str]) {
+        if !self.has(first) {
+            return;
+        }
+        for other in second
+            .iter()
+            .filter(|other| self.has(other))
+            .copied()
+            .collect::<Vec<_>>()
+        {
+            let message = format!("{} cannot have both {first} and {other}", self.label());
+            let span = self.place(other);
+            self.diagnostics
+                .error(Code::ConflictingArguments, span, message);
+        }
+    }
+}

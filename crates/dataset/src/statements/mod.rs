@@ -1,0 +1,114 @@
+//! The statements of the language: one table, and one reader for each that is simulated.
+
+mod force;
+mod friction;
+mod joint;
+mod motion;
+mod part;
+mod request;
+mod settings;
+mod table;
+mod units;
+mod variable;
+
+pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
+pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
+pub(crate) use friction::arguments as friction_arguments;
+pub(crate) use motion::KEYWORDS as MOTION_KEYWORDS;
+pub(crate) use settings::{INTEGRATOR_KEYWORDS, integrator};
+pub(crate) use table::{Action, STATEMENTS};
+pub(crate) use units::{GRAVITY_KEYWORDS, gravity};
+pub(crate) use variable::KEYWORDS as VARIABLE_KEYWORDS;
+
+use crate::diagnostic::{Code, Diagnostics};
+use crate::model::{Dataset, Element, Elements, FrictionArguments};
+use crate::reading::Reading;
+use crate::source::Span;
+
+/// What an identifier names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Target {
+    Part,
+    PointMass,
+    Marker,
+    Joint,
+    Variable,
+}
+
+impl Target {
+    pub(crate) const fn statement(self) -> &'static str {
+        match self {
+            Self::Part => "PART",
+            Self::PointMass => "POINT_MASS",
+            Self::Marker => "MARKER",
+            Self::Joint => "JOINT",
+            Self::Variable => "VARIABLE",
+        }
+    }
+}
+
+/// An identifier in an argument, to be looked up when the whole file is read.
+pub(crate) struct Reference {
+    pub(crate) target: Target,
+    pub(crate) id: u32,
+    pub(crate) span: Span,
+}
+
+/// A dataset while it is read.
+#[derive(Default)]
+pub(crate) struct Builder {
+    pub(crate) dataset: Dataset,
+    pub(crate) references: Vec<Reference>,
+    /// The arguments of every FRICTION, in the order of `dataset.frictions`.
+    pub(crate) friction_arguments: Vec<FrictionArguments>,
+    /// The part before the statement, which owns markers that name no part.
+    pub(crate) last_part: Option<u32>,
+    /// Statements without identifier seen so far.
+    pub(crate) singles: Vec<&'static str>,
+}
+
+impl Builder {
+    /// The identifier in an argument, which must name an element.
+    pub(crate) fn refer(
+        &mut self,
+        reading: &Reading,
+        keyword: &'static str,
+        target: Target,
+    ) -> Option<u32> {
+        let (id, span) = *reading.ids(keyword).first()?;
+        self.references.push(Reference { target, id, span });
+        Some(id)
+    }
+
+    /// Like [`Builder::refer`] for an argument that must be given; 0 where it is not, which has
+    /// been reported.
+    pub(crate) fn require(
+        &mut self,
+        reading: &mut Reading,
+        keyword: &'static str,
+        target: Target,
+    ) -> u32 {
+        reading.require(keyword);
+        self.refer(reading, keyword, target).unwrap_or(0)
+    }
+}
+
+/// Adds an element to its list and reports an identifier that is there already.
+fn add<T: Element>(list: &mut Elements<T>, element: T, name: &str, diagnostics: &mut Diagnostics) {
+    let header = element.header();
+    let id = header.id;
+    if let Some(first) = list.by_id(id).filter(|_| id > 0) {
+        let (line, _) = diagnostics.source.line_column(first.header().span.start);
+        let start = header.span.start;
+        let end = start + name.len().min(header.span.end - start);
+        let span = Span::new(start, diagnostics.source.text().floor_char_boundary(end));
+        diagnostics
+            .error(
+                Code::DuplicateId,
+                span,
+                format!("{name}/{id} is there already"),
+            )
+            .note(format!("the first one is on line {line}"));
+    }
+    list.push(element);
+}

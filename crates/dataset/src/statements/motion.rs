@@ -1,0 +1,97 @@
+//! MOTION.
+
+use super::{Builder, Target, add};
+use crate::arguments::{Keyword, Kind, abbreviated, keyword};
+use crate::diagnostic::Code;
+use crate::model::{Motion, MotionDirection, MotionLevel, MotionTarget};
+use crate::reading::Reading;
+
+pub(crate) const KEYWORDS: &[Keyword] = &[
+    keyword("JOINT", Kind::Id),
+    keyword("I", Kind::Id),
+    abbreviated("J", "J", Kind::Id),
+    abbreviated("ROTATIONAL", "RO", Kind::Flag),
+    abbreviated("TRANSLATIONAL", "TR", Kind::Flag),
+    keyword("X", Kind::Flag),
+    keyword("Y", Kind::Flag),
+    keyword("Z", Kind::Flag),
+    keyword("B1", Kind::Flag),
+    keyword("B2", Kind::Flag),
+    keyword("B3", Kind::Flag),
+    abbreviated("DISPLACEMENT", "D", Kind::Flag),
+    abbreviated("VELOCITY", "V", Kind::Flag),
+    abbreviated("ACCELERATION", "A", Kind::Flag),
+    abbreviated("FUNCTION", "FU", Kind::Expression),
+    keyword("ICDISP", Kind::Real),
+    keyword("ICVEL", Kind::Real),
+    keyword("ROUTINE", Kind::Unsupported("subroutines are not called")),
+];
+
+const DIRECTIONS: [(&str, MotionDirection); 6] = [
+    ("X", MotionDirection::X),
+    ("Y", MotionDirection::Y),
+    ("Z", MotionDirection::Z),
+    ("B1", MotionDirection::B1),
+    ("B2", MotionDirection::B2),
+    ("B3", MotionDirection::B3),
+];
+
+/// MOTION.
+pub(super) fn motion(reading: &mut Reading, builder: &mut Builder) {
+    let target = if reading.has("JOINT") {
+        reading.exclude("JOINT", &["I", "J", "X", "Y", "Z", "B1", "B2", "B3"]);
+        let joint = builder.require(reading, "JOINT", Target::Joint);
+        let flags = [("ROTATIONAL", true), ("TRANSLATIONAL", false)];
+        match reading.required_flag("ROTATIONAL or TRANSLATIONAL", &flags) {
+            Some(false) => MotionTarget::JointTranslation(joint),
+            _ => MotionTarget::JointRotation(joint),
+        }
+    } else {
+        for keyword in ["ROTATIONAL", "TRANSLATIONAL"] {
+            if reading.has(keyword) {
+                let message = format!("{keyword} belongs to a motion of a JOINT");
+                let span = reading.place(keyword);
+                reading
+                    .diagnostics
+                    .error(Code::ConflictingArguments, span, message)
+                    .help("add JOINT, or give I, J and one of X, Y, Z, B1, B2, B3");
+            }
+        }
+        let direction = reading.required_flag("a direction", &DIRECTIONS);
+        MotionTarget::Markers {
+            i: builder.require(reading, "I", Target::Marker),
+            j: builder.require(reading, "J", Target::Marker),
+            direction: direction.unwrap_or(MotionDirection::X),
+        }
+    };
+    let levels = [
+        ("DISPLACEMENT", MotionLevel::Displacement),
+        ("VELOCITY", MotionLevel::Velocity),
+        ("ACCELERATION", MotionLevel::Acceleration),
+    ];
+    let level = reading.one_flag(&levels).unwrap_or_default();
+    for (keyword, used) in [
+        ("ICDISP", level != MotionLevel::Displacement),
+        ("ICVEL", level == MotionLevel::Acceleration),
+    ] {
+        if reading.has(keyword) && !used {
+            let message = format!("{keyword} has no effect: the function gives it already");
+            let span = reading.place(keyword);
+            reading.diagnostics.warning(Code::Ignored, span, message);
+        }
+    }
+    let motion = Motion {
+        header: reading.header(),
+        target,
+        level,
+        function: reading.required_expression("FUNCTION"),
+        ic_displacement: reading.real("ICDISP"),
+        ic_velocity: reading.real("ICVEL"),
+    };
+    add(
+        &mut builder.dataset.motions,
+        motion,
+        reading.name,
+        reading.diagnostics,
+    );
+}

@@ -1,0 +1,213 @@
+//! REQUEST, GRAPHICS, OUTPUT and RESULTS: what is reported and drawn.
+
+use super::{Builder, Target, add};
+use crate::arguments::{Keyword, Kind, abbreviated, keyword};
+use crate::diagnostic::Code;
+use crate::expression::Expression;
+use crate::model::{Graphics, Request, RequestKind};
+use crate::reading::Reading;
+use crate::syntax::{TokenKind, join};
+
+pub(super) const KEYWORDS: &[Keyword] = &[
+    abbreviated("DISPLACEMENT", "D", Kind::Flag),
+    abbreviated("VELOCITY", "V", Kind::Flag),
+    abbreviated("ACCELERATION", "A", Kind::Flag),
+    abbreviated("FORCE", "F", Kind::Flag),
+    keyword("I", Kind::Id),
+    keyword("J", Kind::Id),
+    keyword("RM", Kind::Id),
+    keyword("F1", Kind::Expression),
+    keyword("F2", Kind::Expression),
+    keyword("F3", Kind::Expression),
+    keyword("F4", Kind::Expression),
+    keyword("F5", Kind::Expression),
+    keyword("F6", Kind::Expression),
+    keyword("F7", Kind::Expression),
+    keyword("F8", Kind::Expression),
+    abbreviated(
+        "FUNCTION",
+        "FU",
+        Kind::Ignored("subroutines are not called"),
+    ),
+    abbreviated("ROUTINE", "RO", Kind::Ignored("subroutines are not called")),
+    abbreviated("COMMENT", "C", Kind::Text),
+    abbreviated("TITLE", "T", Kind::Text),
+    keyword("CNAMES", Kind::Strings),
+    keyword("CLABELS", Kind::Strings),
+    keyword("CUNITS", Kind::Strings),
+    abbreviated("RESULTS_NAME", "RESULTS", Kind::Text),
+];
+
+const FUNCTIONS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
+
+/// REQUEST. One that only calls a subroutine reports nothing.
+pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
+    let standard = reading.one_flag(&[
+        ("DISPLACEMENT", 0),
+        ("VELOCITY", 1),
+        ("ACCELERATION", 2),
+        ("FORCE", 3),
+    ]);
+    let kind = match standard {
+        Some(kind) => {
+            for function in FUNCTIONS {
+                if reading.has(function) {
+                    let span = reading.place(function);
+                    let message = format!("{} reports one thing only", reading.label());
+                    reading
+                        .diagnostics
+                        .error(Code::ConflictingArguments, span, message)
+                        .help("use another REQUEST for the functions");
+                }
+            }
+            reading.require("I");
+            match kind {
+                0 => RequestKind::Displacement,
+                1 => RequestKind::Velocity,
+                2 => RequestKind::Acceleration,
+                _ => RequestKind::Force,
+            }
+        }
+        None => {
+            let functions: [Option<Expression>; 8] =
+                FUNCTIONS.map(|function| reading.expression(function));
+            RequestKind::Functions(Box::new(functions))
+        }
+    };
+    let calls_subroutine = ["FUNCTION", "ROUTINE"].iter().any(|name| reading.has(name));
+    let reports = standard.is_some() || FUNCTIONS.iter().any(|function| reading.has(function));
+    if !reports {
+        if !calls_subroutine {
+            let message = format!("{} reports nothing", reading.label());
+            let span = reading.head;
+            reading
+                .diagnostics
+                .error(Code::MissingArgument, span, message)
+                .help("add DISPLACEMENT, VELOCITY, ACCELERATION, FORCE or F1 to F8");
+        }
+        return;
+    }
+    let request = Request {
+        header: reading.header(),
+        kind,
+        i: builder.refer(reading, "I", Target::Marker),
+        j: builder.refer(reading, "J", Target::Marker),
+        rm: builder.refer(reading, "RM", Target::Marker),
+        comment: reading.text("COMMENT"),
+        title: reading.text("TITLE"),
+        component_names: reading.strings("CNAMES"),
+        component_labels: reading.strings("CLABELS"),
+        component_units: reading.strings("CUNITS"),
+        results_name: reading.text("RESULTS_NAME"),
+    };
+    add(
+        &mut builder.dataset.requests,
+        request,
+        reading.name,
+        reading.diagnostics,
+    );
+}
+
+/// GRAPHICS: the first flag is the type, everything else is kept as written.
+pub(super) fn graphics(reading: &mut Reading, builder: &mut Builder) {
+    let source = reading.diagnostics.source;
+    let mut kind = String::new();
+    let mut arguments = Vec::new();
+    let mut at = 0;
+    while at < reading.items.len() {
+        if reading.items[at].kind != TokenKind::Word {
+            at += 1;
+            continue;
+        }
+        let name = source.slice(reading.items[at].span).to_ascii_uppercase();
+        at += 1;
+        let first = at;
+        while at < reading.items.len() {
+            let next = reading.items.get(at + 1).map(|item| item.kind);
+            let ends = reading.items[at].kind == TokenKind::Comma;
+            if ends && next == Some(TokenKind::Word) {
+                break;
+            }
+            at += 1;
+        }
+        let value = &reading.items[first..at];
+        match value.first().map(|item| item.kind) {
+            None if kind.is_empty() => kind = name,
+            None => arguments.push((name, String::new())),
+            Some(TokenKind::Equals) => arguments.push((name, join(source, &value[1..]))),
+            Some(_) => {
+                let span = value[0].span;
+                let message = format!("expected `=` or `,` behind {name}");
+                reading.diagnostics.error(Code::Syntax, span, message);
+            }
+        }
+    }
+    let graphics = Graphics {
+        header: reading.header(),
+        kind,
+        arguments,
+    };
+    add(
+        &mut builder.dataset.graphics,
+        graphics,
+        reading.name,
+        reading.diagnostics,
+    );
+}
+
+const NOT_WRITTEN: &str = "stiction does not write this file or table";
+const FORMAT: &str = "the format of output files is fixed";
+const ALL_WRITTEN: &str = "all results are written";
+
+pub(super) const OUTPUT_KEYWORDS: &[Keyword] = &[
+    abbreviated("REQSAVE", "REQ", Kind::Flag),
+    abbreviated("GRSAVE", "GRS", Kind::Ignored(NOT_WRITTEN)),
+    abbreviated("GR521SAV", "GR5", Kind::Ignored(NOT_WRITTEN)),
+    abbreviated("CHART", "C", Kind::Ignored(NOT_WRITTEN)),
+    abbreviated("DPRINT", "DP", Kind::Ignored(NOT_WRITTEN)),
+    abbreviated("FIXED", "FI", Kind::Ignored(FORMAT)),
+    abbreviated("NOPRINT", "NOP", Kind::Flag),
+    abbreviated("NOSEPARATOR", "NOS", Kind::Ignored(FORMAT)),
+    abbreviated("OSFORMAT", "OS", Kind::Ignored(FORMAT)),
+    abbreviated("TELETYPE", "TE", Kind::Ignored(FORMAT)),
+    abbreviated("YPRINT", "Y", Kind::Ignored(NOT_WRITTEN)),
+    abbreviated("DSCALE", "DS", Kind::Ignored(FORMAT)),
+    abbreviated("VSCALE", "VS", Kind::Ignored(FORMAT)),
+    abbreviated("ASCALE", "AS", Kind::Ignored(FORMAT)),
+    abbreviated("FSCALE", "FS", Kind::Ignored(FORMAT)),
+    abbreviated("DZERO", "DZ", Kind::Ignored(FORMAT)),
+    abbreviated("VZERO", "VZ", Kind::Ignored(FORMAT)),
+    abbreviated("AZERO", "AZ", Kind::Ignored(FORMAT)),
+    abbreviated("FZERO", "FZ", Kind::Ignored(FORMAT)),
+];
+
+/// OUTPUT.
+pub(super) fn output(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.output.requests = reading.has("REQSAVE");
+}
+
+pub(super) const RESULTS_KEYWORDS: &[Keyword] = &[
+    abbreviated("FORMATTED", "FORM", Kind::Flag),
+    keyword("XRF", Kind::Flag),
+    keyword("DECIMALPLACES", Kind::Integer),
+    abbreviated("COMMENT", "COM", Kind::Text),
+    abbreviated("NOACCELERATIONS", "NOACC", Kind::Ignored(ALL_WRITTEN)),
+    abbreviated("NOAPPLIEDFORCES", "NOAPP", Kind::Ignored(ALL_WRITTEN)),
+    keyword("NOCONTACTS", Kind::Flag),
+    abbreviated("NODATASTRUCTURES", "NODAT", Kind::Ignored(ALL_WRITTEN)),
+    abbreviated("NODISPLACEMENTS", "NODIS", Kind::Ignored(ALL_WRITTEN)),
+    abbreviated("NOFLOATINGMARKERS", "NOFLO", Kind::Flag),
+    abbreviated("NOLINEAR", "NOLIN", Kind::Flag),
+    abbreviated("NOREACTIONFORCES", "NOREA", Kind::Ignored(ALL_WRITTEN)),
+    keyword("NOREQUESTS", Kind::Ignored(ALL_WRITTEN)),
+    abbreviated("NOSYSTEMELEMENTS", "NOSYS", Kind::Ignored(ALL_WRITTEN)),
+    abbreviated("NOTIRES", "NOTIR", Kind::Flag),
+    abbreviated("NOVELOCITIES", "NOVEL", Kind::Ignored(ALL_WRITTEN)),
+];
+
+/// RESULTS.
+pub(super) fn results(reading: &mut Reading, builder: &mut Builder) {
+    let results = &mut builder.dataset.results;
+    results.decimal_places = reading.count("DECIMALPLACES");
+    results.comment = reading.text("COMMENT");
+}

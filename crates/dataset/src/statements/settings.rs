@@ -1,0 +1,197 @@
+//! INTEGRATOR, EQUILIBRIUM, KINEMATICS, IC and PREFERENCES.
+
+use super::Builder;
+use crate::arguments::{Keyword, Kind, abbreviated, keyword};
+use crate::model::{
+    Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
+    Kinematics, Preferences,
+};
+use crate::reading::Reading;
+
+pub(crate) const INTEGRATOR_KEYWORDS: &[Keyword] = &[
+    keyword("GSTIFF", Kind::Flag),
+    keyword("WSTIFF", Kind::Flag),
+    keyword("HASTIFF", Kind::Flag),
+    keyword("HHT", Kind::Flag),
+    keyword("NEWMARK", Kind::Flag),
+    keyword("I3", Kind::Flag),
+    keyword("SI2", Kind::Flag),
+    keyword("SI1", Kind::Flag),
+    abbreviated("ERROR", "E", Kind::Real),
+    keyword("HINIT", Kind::Real),
+    keyword("HMAX", Kind::Real),
+    keyword("HMIN", Kind::Real),
+    keyword("HRATIO", Kind::Real),
+    abbreviated("KMAX", "K", Kind::Integer),
+    abbreviated("MAXIT", "M", Kind::Integer),
+    keyword("FIXIT", Kind::Integer),
+    abbreviated("PATTERN", "P", Kind::Words),
+    abbreviated("CORRECTOR", "C", Kind::Word),
+    abbreviated("INTERPOLATE", "IN", Kind::Word),
+    keyword("ADAPTIVITY", Kind::Real),
+    keyword("ALPHA", Kind::Real),
+    keyword("BETA", Kind::Real),
+    keyword("GAMMA", Kind::Real),
+];
+
+/// The arguments of INTEGRATOR, as a statement or as a command.
+pub(crate) fn integrator(reading: &mut Reading) -> Integrator {
+    let methods = [
+        IntegratorMethod::Gstiff,
+        IntegratorMethod::Wstiff,
+        IntegratorMethod::Hastiff,
+        IntegratorMethod::Hht,
+        IntegratorMethod::Newmark,
+    ]
+    .map(|method| (method.keyword(), method));
+    let formulations = [
+        ("I3", IndexReduction::I3),
+        ("SI2", IndexReduction::Si2),
+        ("SI1", IndexReduction::Si1),
+    ];
+    let correctors = [
+        ("ORIGINAL", Corrector::Original),
+        ("MODIFIED", Corrector::Modified),
+    ];
+    Integrator {
+        method: reading.one_flag(&methods),
+        formulation: reading.one_flag(&formulations),
+        error: reading.positive("ERROR"),
+        hinit: reading.positive("HINIT"),
+        hmax: reading.positive("HMAX"),
+        hmin: reading.positive("HMIN"),
+        hratio: reading.positive("HRATIO"),
+        kmax: reading.count("KMAX"),
+        maxit: reading.count("MAXIT"),
+        fixit: reading.count("FIXIT"),
+        pattern: reading.pattern("PATTERN"),
+        corrector: reading.choice("CORRECTOR", &correctors),
+        interpolate: reading.switch("INTERPOLATE"),
+        adaptivity: reading.not_negative("ADAPTIVITY"),
+        alpha: reading.real("ALPHA"),
+        beta: reading.real("BETA"),
+        gamma: reading.real("GAMMA"),
+        span: reading.span,
+    }
+}
+
+/// INTEGRATOR.
+pub(super) fn integrator_statement(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.integrator = Some(integrator(reading));
+}
+
+pub(super) const EQUILIBRIUM_KEYWORDS: &[Keyword] = &[
+    abbreviated("ALIMIT", "AL", Kind::Real),
+    abbreviated("TLIMIT", "TL", Kind::Real),
+    abbreviated("ERROR", "ERR", Kind::Real),
+    abbreviated("IMBALANCE", "IM", Kind::Real),
+    abbreviated("STABILITY", "ST", Kind::Real),
+    abbreviated("MAXIT", "MAX", Kind::Integer),
+    abbreviated("PATTERN", "PAT", Kind::Words),
+    keyword("METHOD", Kind::Text),
+    keyword("ATOL", Kind::Real),
+    keyword("RTOL", Kind::Real),
+    keyword("MAXITL", Kind::Integer),
+    keyword("STATIC", Kind::Flag),
+    keyword(
+        "DYNAMIC",
+        Kind::Unsupported("equilibria are found by iteration"),
+    ),
+];
+
+/// EQUILIBRIUM.
+pub(super) fn equilibrium(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.equilibrium = Some(Equilibrium {
+        alimit: reading.positive("ALIMIT"),
+        tlimit: reading.positive("TLIMIT"),
+        error: reading.positive("ERROR"),
+        imbalance: reading.positive("IMBALANCE"),
+        stability: reading.not_negative("STABILITY"),
+        maxit: reading.count("MAXIT"),
+        pattern: reading.pattern("PATTERN"),
+        method: reading.text("METHOD"),
+        atol: reading.positive("ATOL"),
+        rtol: reading.positive("RTOL"),
+        maxitl: reading.count("MAXITL"),
+        span: reading.span,
+    });
+}
+
+pub(super) const KINEMATICS_KEYWORDS: &[Keyword] = &[
+    abbreviated("ERROR", "ERR", Kind::Real),
+    keyword("AERROR", Kind::Real),
+    abbreviated("MAXIT", "MAX", Kind::Integer),
+    keyword("AMAXIT", Kind::Integer),
+    keyword("ALIMIT", Kind::Real),
+    keyword("TLIMIT", Kind::Real),
+    keyword("HMAX", Kind::Real),
+    keyword("PATTERN", Kind::Words),
+    keyword("APATTERN", Kind::Words),
+];
+
+/// KINEMATICS.
+pub(super) fn kinematics(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.kinematics = Some(Kinematics {
+        error: reading.positive("ERROR"),
+        aerror: reading.positive("AERROR"),
+        maxit: reading.count("MAXIT"),
+        amaxit: reading.count("AMAXIT"),
+        alimit: reading.positive("ALIMIT"),
+        tlimit: reading.positive("TLIMIT"),
+        hmax: reading.positive("HMAX"),
+        pattern: reading.pattern("PATTERN"),
+        apattern: reading.pattern("APATTERN"),
+        span: reading.span,
+    });
+}
+
+pub(super) const IC_KEYWORDS: &[Keyword] = &[
+    abbreviated("ERROR", "ERR", Kind::Real),
+    abbreviated("VERROR", "VER", Kind::Real),
+    abbreviated("AERROR", "AERR", Kind::Real),
+    abbreviated("MAXIT", "MAX", Kind::Integer),
+    abbreviated("AMAXIT", "AMAX", Kind::Integer),
+    abbreviated("ALIMIT", "AL", Kind::Real),
+    abbreviated("TLIMIT", "TL", Kind::Real),
+    abbreviated("PATTERN", "PAT", Kind::Words),
+    abbreviated("APATTERN", "APAT", Kind::Words),
+];
+
+/// IC.
+pub(super) fn initial_conditions(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.initial_conditions = Some(InitialConditions {
+        error: reading.positive("ERROR"),
+        verror: reading.positive("VERROR"),
+        aerror: reading.positive("AERROR"),
+        maxit: reading.count("MAXIT"),
+        amaxit: reading.count("AMAXIT"),
+        alimit: reading.positive("ALIMIT"),
+        tlimit: reading.positive("TLIMIT"),
+        pattern: reading.pattern("PATTERN"),
+        apattern: reading.pattern("APATTERN"),
+        span: reading.span,
+    });
+}
+
+const NO_CONTACT: &str = "contacts are not simulated";
+
+pub(super) const PREFERENCES_KEYWORDS: &[Keyword] = &[
+    keyword("SIMFAIL", Kind::Word),
+    keyword("CONTACT_FACETING_TOLERANCE", Kind::Ignored(NO_CONTACT)),
+    keyword("CONTACT_GEOMETRY_LIBRARY", Kind::Ignored(NO_CONTACT)),
+    keyword("NTHREADS", Kind::Ignored("one thread is used")),
+    keyword(
+        "STATUS_MESSAGE",
+        Kind::Ignored("messages are not switched off"),
+    ),
+    keyword("LIST_STATUS", Kind::Ignored("stiction prints no listing")),
+];
+
+/// PREFERENCES.
+pub(super) fn preferences(reading: &mut Reading, builder: &mut Builder) {
+    let choices = [("STOPCF", true), ("NOSTOPCF", false)];
+    builder.dataset.preferences = Some(Preferences {
+        stop_on_failure: reading.choice("SIMFAIL", &choices),
+        span: reading.span,
+    });
+}

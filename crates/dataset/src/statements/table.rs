@@ -1,0 +1,199 @@
+//! The table of statements.
+
+use super::Builder;
+use super::{force, friction, joint, motion, part, request, settings, units, variable};
+use crate::arguments::Keyword;
+use crate::names::Name;
+use crate::reading::Reading;
+
+/// What is done with a statement.
+#[derive(Clone, Copy)]
+pub(crate) enum Action {
+    /// Its arguments are read by this function. Without keywords they are left as they are.
+    Read(Option<&'static [Keyword]>, fn(&mut Reading, &mut Builder)),
+    /// It cannot change the motion: a warning with the reason.
+    Ignored(&'static str),
+    /// It is refused.
+    Unsupported,
+}
+
+/// A statement of the language.
+#[derive(Clone, Copy)]
+pub(crate) struct Rule {
+    pub(crate) name: Name,
+    /// Whether it has an identifier. One without may occur once.
+    pub(crate) identified: bool,
+    pub(crate) action: Action,
+}
+
+const fn read(
+    full: &'static str,
+    least: &'static str,
+    keywords: &'static [Keyword],
+    read: fn(&mut Reading, &mut Builder),
+) -> Rule {
+    Rule {
+        name: Name { full, least },
+        identified: true,
+        action: Action::Read(Some(keywords), read),
+    }
+}
+
+const fn single(
+    full: &'static str,
+    least: &'static str,
+    keywords: &'static [Keyword],
+    read: fn(&mut Reading, &mut Builder),
+) -> Rule {
+    Rule {
+        name: Name { full, least },
+        identified: false,
+        action: Action::Read(Some(keywords), read),
+    }
+}
+
+const fn ignored(full: &'static str, reason: &'static str) -> Rule {
+    Rule {
+        name: Name { full, least: full },
+        identified: false,
+        action: Action::Ignored(reason),
+    }
+}
+
+const fn unsupported(full: &'static str, least: &'static str) -> Rule {
+    Rule {
+        name: Name { full, least },
+        identified: false,
+        action: Action::Unsupported,
+    }
+}
+
+/// Why a statement that only holds data is harmless: whatever could use it is refused.
+const DATA: &str = "nothing that is simulated can use it";
+
+/// Every statement of the language.
+pub(crate) const STATEMENTS: &[Rule] = &[
+    single("UNITS", "UNI", units::KEYWORDS, units::units),
+    single("ACCGRAV", "ACC", units::GRAVITY_KEYWORDS, units::accgrav),
+    read("PART", "P", part::PART_KEYWORDS, part::part),
+    read(
+        "POINT_MASS",
+        "POI",
+        part::POINT_MASS_KEYWORDS,
+        part::point_mass,
+    ),
+    read("MARKER", "M", part::MARKER_KEYWORDS, part::marker),
+    read("JOINT", "J", joint::JOINT_KEYWORDS, joint::joint),
+    read("JPRIM", "JP", joint::PRIMITIVE_KEYWORDS, joint::primitive),
+    read("GCON", "GC", joint::CONSTRAINT_KEYWORDS, joint::constraint),
+    read("MOTION", "MO", motion::KEYWORDS, motion::motion),
+    read("SFORCE", "SF", force::SINGLE_KEYWORDS, force::single_force),
+    read(
+        "SPRINGDAMPER",
+        "SPR",
+        force::SPRING_KEYWORDS,
+        force::spring_damper,
+    ),
+    read("VARIABLE", "VAR", variable::KEYWORDS, variable::variable),
+    read(
+        "PINPUT",
+        "PINP",
+        variable::PORT_KEYWORDS,
+        variable::plant_input,
+    ),
+    read(
+        "POUTPUT",
+        "POUT",
+        variable::PORT_KEYWORDS,
+        variable::plant_output,
+    ),
+    read("REQUEST", "R", request::KEYWORDS, request::request),
+    read("FRICTION", "FRI", friction::KEYWORDS, friction::friction),
+    Rule {
+        name: Name {
+            full: "GRAPHICS",
+            least: "G",
+        },
+        identified: true,
+        action: Action::Read(None, request::graphics),
+    },
+    single("OUTPUT", "OUT", request::OUTPUT_KEYWORDS, request::output),
+    single(
+        "RESULTS",
+        "RES",
+        request::RESULTS_KEYWORDS,
+        request::results,
+    ),
+    single(
+        "INTEGRATOR",
+        "INT",
+        settings::INTEGRATOR_KEYWORDS,
+        settings::integrator_statement,
+    ),
+    single(
+        "EQUILIBRIUM",
+        "EQU",
+        settings::EQUILIBRIUM_KEYWORDS,
+        settings::equilibrium,
+    ),
+    single(
+        "KINEMATICS",
+        "KIN",
+        settings::KINEMATICS_KEYWORDS,
+        settings::kinematics,
+    ),
+    single(
+        "IC",
+        "IC",
+        settings::IC_KEYWORDS,
+        settings::initial_conditions,
+    ),
+    single(
+        "PREFERENCES",
+        "PREF",
+        settings::PREFERENCES_KEYWORDS,
+        settings::preferences,
+    ),
+    ignored("ARRAY", DATA),
+    ignored("CURVE", DATA),
+    ignored("MATRIX", DATA),
+    ignored("SPLINE", DATA),
+    ignored("STRING", DATA),
+    ignored("SURFACE", DATA),
+    ignored("MATERIAL", "rigid parts give their own mass and inertia"),
+    ignored("SECTION", "only flexible parts have a cross-section"),
+    ignored("DEBUG", "it asks for diagnostics of another program"),
+    ignored("LSOLVER", "stiction has one linear solver"),
+    ignored("LIST", "stiction prints no listing"),
+    ignored("NOLIST", "stiction prints no listing"),
+    ignored(
+        "MREQUEST",
+        "it only reports; write a REQUEST for each element",
+    ),
+    unsupported("ADAMS_BUSHING", "ADAMS_BUSHING"),
+    unsupported("BEAM", "BE"),
+    unsupported("BUSHING", "BU"),
+    unsupported("CONTACT", "CON"),
+    unsupported("COUPLER", "COU"),
+    unsupported("CVCV", "CVCV"),
+    unsupported("DIFF", "DI"),
+    unsupported("FEMDATA", "FEM"),
+    unsupported("FE_LOAD", "FE_L"),
+    unsupported("FE_NODE", "FE_N"),
+    unsupported("FE_PART", "FE_P"),
+    unsupported("FIELD", "FI"),
+    unsupported("FLEX_BODY", "FL"),
+    unsupported("GEAR", "GE"),
+    unsupported("GFORCE", "GF"),
+    unsupported("GSE", "GS"),
+    unsupported("LSE", "LSE"),
+    unsupported("MFORCE", "MF"),
+    unsupported("NFORCE", "NF"),
+    unsupported("PTCV", "PT"),
+    unsupported("SENSOR", "SE"),
+    unsupported("TFSISO", "TF"),
+    unsupported("TIRE", "TIRE"),
+    unsupported("UCON", "UC"),
+    unsupported("VFORCE", "VF"),
+    unsupported("VTORQUE", "VT"),
+];

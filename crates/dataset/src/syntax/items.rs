@@ -1,0 +1,64 @@
+//! The tokens of one statement that carry meaning, with continuation marks removed.
+
+use super::{StatementTokens, SyntaxTree, TokenKind};
+use crate::source::{Source, Span};
+
+/// A token that carries meaning.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Item {
+    pub(crate) kind: TokenKind,
+    pub(crate) span: Span,
+    /// Whether it is the comma that starts a continued line: a separator between arguments, and
+    /// nothing at all inside an expression.
+    pub(crate) continues: bool,
+}
+
+/// Fills `items` with the items of a statement.
+///
+/// `&` at the end of a line is left out. So is the comma that starts a continued line where the
+/// line before ends in `,` or `=`: both commas are one separator.
+pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut Vec<Item>) {
+    items.clear();
+    let mut new_line = false;
+    for token in &tree.tokens[statement.tokens.clone()] {
+        match token.kind {
+            TokenKind::Newline => {
+                new_line = true;
+                if items
+                    .last()
+                    .is_some_and(|item| item.kind == TokenKind::Ampersand)
+                {
+                    items.pop();
+                }
+                continue;
+            }
+            _ if token.is_trivia() => continue,
+            _ => {}
+        }
+        let continues = new_line && token.kind == TokenKind::Comma;
+        new_line = false;
+        let before = items.last().map(|item: &Item| item.kind);
+        if continues && matches!(before, Some(TokenKind::Comma | TokenKind::Equals)) {
+            continue;
+        }
+        items.push(Item {
+            kind: token.kind,
+            span: token.span(),
+            continues,
+        });
+    }
+}
+
+/// The text of items on one line: blanks as one blank, comments and marks left out.
+pub(crate) fn join(source: &Source, items: &[Item]) -> String {
+    let mut text = String::new();
+    let mut end = items.first().map_or(0, |item| item.span.start);
+    for item in items {
+        if item.span.start > end {
+            text.push(' ');
+        }
+        text.push_str(source.slice(item.span));
+        end = item.span.end;
+    }
+    text
+}

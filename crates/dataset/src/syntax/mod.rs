@@ -1,0 +1,110 @@
+//! The faithful tree of a text: tokens, and statements as ranges of tokens.
+
+mod items;
+mod token;
+
+pub(crate) use items::{Item, items, join};
+pub(crate) use token::number_value;
+pub use token::{Language, Token, TokenKind};
+
+use crate::source::{Source, Span};
+use std::ops::Range;
+
+/// One statement of a [`SyntaxTree`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StatementTokens {
+    /// From the first to the last token that is neither blank nor comment.
+    pub tokens: Range<usize>,
+    /// The last `adams_view_name='...'` comment between the statement before and this one.
+    pub name_comment: Option<usize>,
+}
+
+/// The tokens of a text and how they make statements.
+///
+/// ```
+/// use dataset::{Language, Source, SyntaxTree};
+/// let source = Source::from_text("m.adm", "title\nPART/1 ! the frame\n, GROUND\nEND".to_string());
+/// let tree = SyntaxTree::new(&source, Language::Dataset);
+/// assert_eq!(source.slice(tree.span(&tree.statements[0])), "PART/1 ! the frame\n, GROUND");
+/// let text: String = tree.tokens.iter().map(|token| source.slice(token.span())).collect();
+/// assert_eq!(text, source.text());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct SyntaxTree {
+    /// Every token; their texts joined give the text back.
+    pub tokens: Vec<Token>,
+    /// The statements in order, END excluded; what follows END is in none.
+    pub statements: Vec<StatementTokens>,
+}
+
+impl SyntaxTree {
+    /// The tree of a text; it cannot fail.
+    #[must_use]
+    pub fn new(source: &Source, language: Language) -> Self {
+        let tokens = token::tokens(source, language);
+        let statements = statements(source, &tokens, language);
+        Self { tokens, statements }
+    }
+
+    /// The place of a statement, from its name to its last argument.
+    #[must_use]
+    pub fn span(&self, statement: &StatementTokens) -> Span {
+        let tokens = &self.tokens[statement.tokens.clone()];
+        match (tokens.first(), tokens.last()) {
+            (Some(first), Some(last)) => first.span().to(last.span()),
+            _ => Span::default(),
+        }
+    }
+}
+
+/// A statement ends at `;`, or at the end of a line unless that line ends in `&` or `,` or the
+/// next line that is neither blank nor comment starts with `,`.
+fn statements(source: &Source, tokens: &[Token], language: Language) -> Vec<StatementTokens> {
+    let mut statements = Vec::new();
+    let mut name_comment = None;
+    let mut current: Option<StatementTokens> = None;
+    let mut line_ended = false;
+    let mut last_kind = TokenKind::Newline;
+    for (index, token) in tokens.iter().enumerate() {
+        match token.kind {
+            TokenKind::Line | TokenKind::Whitespace => continue,
+            TokenKind::Comment => {
+                if source.slice(token.span()).contains("adams_view_name") {
+                    name_comment = Some(index);
+                }
+                continue;
+            }
+            TokenKind::Newline => {
+                line_ended |= !matches!(last_kind, TokenKind::Ampersand | TokenKind::Comma);
+                continue;
+            }
+            TokenKind::Semicolon => {
+                statements.extend(current.take());
+                line_ended = false;
+                last_kind = token.kind;
+                continue;
+            }
+            _ => {}
+        }
+        if line_ended && token.kind != TokenKind::Comma {
+            statements.extend(current.take());
+        }
+        line_ended = false;
+        last_kind = token.kind;
+        match &mut current {
+            Some(statement) => statement.tokens.end = index + 1,
+            None => {
+                let is_end = source.slice(token.span()).eq_ignore_ascii_case("END");
+                if language == Language::Dataset && is_end {
+                    return statements;
+                }
+                current = Some(StatementTokens {
+                    tokens: index..index + 1,
+                    name_comment: name_comment.take(),
+                });
+            }
+        }
+    }
+    statements.extend(current);
+    statements
+}

@@ -1,0 +1,10 @@
+//! The dataset crate as its users see it.
+
+#![allow(clippy::print_stdout, reason = "tests print the figures they measure")]
+
+mod cases;
+mod changes;
+mod corpus;
+mod language;
+mod mutations;
+mod shared;
