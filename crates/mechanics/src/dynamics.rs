@@ -1,0 +1,395 @@
+//! Dynamics: the constrained equations of motion stepped by backward differentiation.
+//!
+//! With `ẋ = (x − x̂)/γ` and `u̇ = (u − û)/γ` from the integrator's formula, and `Λ = γλ`, a step
+//! solves
+//!
+//! ```text
+//! M (u − û) = γ (Q + f) + GᵀΛ                                   both formulations
+//! I3:   g(x) = 0,        u from x by the formula
+//! SI2:  G u = rate,      x = x̂ + γ u + ν   with  g(x) = 0
+//! ```
+//!
+//! SI2 is the stabilised index-2 form of Gear, Gupta and Leimkuhler (1985): the correction `ν` of
+//! the positions, of the size of the local error, lies in the directions of the constraint forces
+//! `M⁻¹Gᵀ` (their `Gᵀμ`, weighted by the mass). Because it is that small, velocities and
+//! multipliers are solved first and positions after, with one factorisation.
+//!
+//! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
+//! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
+//! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
+
+use nalgebra::Vector3;
+use numerics::bdf;
+use numerics::linear::{Matrix, SparseLu};
+
+use crate::instant::Failure;
+use crate::joint_friction::Memory;
+use crate::model::Level;
+use crate::rotation::Quaternion;
+use crate::state::{POSITIONS, State, VELOCITIES};
+use crate::system::{Rows, System};
+
+/// How the constraints enter a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formulation {
+    /// Position constraints only; velocities and reactions follow by differentiation.
+    I3,
+    /// Stabilised index 2: position and velocity constraints.
+    Si2,
+}
+
+/// Newton stops when what is left is this part of the error tolerance.
+const NEWTON_TOLERANCE: f64 = 0.02;
+/// A kept Newton matrix serves while γ stays within this part of its own.
+const GAMMA_RANGE: f64 = 0.25;
+/// A kept Newton matrix is renewed when the iteration got slower than this.
+const SLOW_RATE: f64 = 0.25;
+
+/// Counts of the work done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Evaluations of the residual.
+    pub residuals: usize,
+    /// Newton matrices built and factored.
+    pub factorisations: usize,
+}
+
+/// Scales that make the error test independent of the choice of units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// Typical length.
+    pub(crate) length: f64,
+    /// Largest rate so far, at least one per second: velocities count relative to it.
+    pub(crate) rate: f64,
+}
+
+/// The step equations with their storage.
+#[derive(Clone, Debug)]
+pub(crate) struct Dynamics {
+    pub(crate) system: System,
+    pub(crate) formulation: Formulation,
+    /// Error tolerance per step, relative to the scales.
+    pub(crate) tolerance: f64,
+    pub(crate) newton_iterations: usize,
+    pub(crate) scales: Scales,
+    pub(crate) work: Work,
+    /// Multipliers λ of the last solved step.
+    pub(crate) multipliers: Vec<f64>,
+    /// Friction memory before the last accepted step, for outputs within it.
+    pub(crate) previous: Vec<Memory>,
+    state: State,
+    shift: Vec<f64>,
+    impulses: Vec<f64>,
+    trial: Vec<f64>,
+    change: Vec<f64>,
+    force: Vec<f64>,
+    momentum: Vec<f64>,
+    right: Vec<f64>,
+    position_right: Vec<f64>,
+    matrix: Matrix,
+    factors: SparseLu,
+    /// γ of the factored matrix, none before the first.
+    factored: Option<f64>,
+    rate: f64,
+}
+
+impl Dynamics {
+    pub(crate) fn new(system: System, formulation: Formulation, scales: Scales) -> Self {
+        let n = system.velocity_count();
+        let size = n + system.row_count();
+        let bodies = system.model.bodies.len();
+        Self {
+            formulation,
+            tolerance: 1e-6,
+            newton_iterations: 4,
+            scales,
+            work: Work::default(),
+            multipliers: vec![0.0; system.row_count()],
+            previous: system.history.frictions.clone(),
+            state: State { time: 0.0, values: vec![0.0; (POSITIONS + VELOCITIES) * bodies] },
+            shift: vec![0.0; n],
+            impulses: vec![0.0; system.row_count()],
+            trial: vec![0.0; system.row_count()],
+            change: vec![0.0; n],
+            force: vec![0.0; n],
+            momentum: vec![0.0; n],
+            right: vec![0.0; size],
+            position_right: vec![0.0; size],
+            matrix: Matrix::new(size),
+            factors: SparseLu::new(),
+            factored: None,
+            rate: 0.0,
+            system,
+        }
+    }
+
+    /// Raises the rate scale to that of the present velocities.
+    pub(crate) fn observe_rates(&mut self, velocities: &[f64]) {
+        for (k, u) in velocities.iter().enumerate() {
+            let rate = if k % 6 < 3 { u.abs() / self.scales.length } else { u.abs() };
+            self.scales.rate = self.scales.rate.max(rate);
+        }
+    }
+
+    /// Positions from velocities: `x = x̂ + γ u + ν`.
+    fn positions_from_velocities(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
+        let bodies = self.system.model.bodies.len();
+        for body in 0..bodies {
+            let place = POSITIONS * body;
+            let first = VELOCITIES * body;
+            for k in 0..3 {
+                self.state.values[place + k] = step.history[place + k]
+                    + step.gamma * self.state.velocities()[first + k]
+                    + self.shift[first + k];
+            }
+            let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
+            let omega =
+                Vector3::from_column_slice(&self.state.velocities()[first + 3..first + 6]);
+            let half = 0.5 * step.gamma * omega;
+            let norm = past.norm_squared();
+            let scalar = norm - half.norm_squared();
+            if !(scalar > 0.25 * norm) {
+                return Err(Failure::TurnsTooFar { body });
+            }
+            let turned = Quaternion { w: scalar.sqrt(), v: half }.times(&past);
+            let shift = Vector3::from_column_slice(&self.shift[first + 3..first + 6]);
+            let q = Quaternion::exp(&shift).times(&turned).normalized();
+            q.write(&mut self.state.values[place + 3..place + POSITIONS]);
+        }
+        Ok(())
+    }
+
+    /// Velocities from positions: the formula itself.
+    fn velocities_from_positions(&mut self, step: &bdf::Step<'_>) {
+        let bodies = self.system.model.bodies.len();
+        for body in 0..bodies {
+            let place = POSITIONS * body;
+            let q = self.state.orientation(body);
+            let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
+            let back = Quaternion { w: q.w, v: -q.v };
+            let omega = (-2.0 / step.gamma) * past.times(&back).v;
+            let velocity = (self.state.centre(body)
+                - Vector3::from_column_slice(&step.history[place..place + 3]))
+                / step.gamma;
+            let u = &mut self.state.velocities_mut()[VELOCITIES * body..VELOCITIES * (body + 1)];
+            u[..3].copy_from_slice(velocity.as_slice());
+            u[3..].copy_from_slice(omega.as_slice());
+        }
+    }
+
+    /// Right-hand sides at the state evaluated last.
+    fn residual(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
+        self.work.residuals += 1;
+        let n = self.system.velocity_count();
+        let gamma = step.gamma;
+        let past = &step.history[POSITIONS * (n / VELOCITIES)..];
+        for k in 0..n {
+            self.change[k] = self.state.velocities()[k] - past[k];
+        }
+        for (trial, impulse) in self.trial.iter_mut().zip(&self.impulses) {
+            *trial = impulse / gamma;
+        }
+        self.system.mass_times(&self.change, &mut self.momentum);
+        self.system.forces(&self.trial, &mut self.force);
+        for k in 0..n {
+            self.right[k] = gamma * self.force[k] - self.momentum[k];
+        }
+        for (row, &place) in self.system.rows.iter().enumerate() {
+            let evaluated = &self.system.evaluated[place];
+            let constraint = &self.system.constraints[place];
+            let of = |u: &[f64]| evaluated.rate_of(&constraint.bodies, u);
+            self.right[n + row] = match (constraint.level, self.formulation) {
+                (Level::Position, Formulation::I3) => -evaluated.error / gamma,
+                (Level::Position, Formulation::Si2) | (Level::Velocity, _) => {
+                    evaluated.rate - of(self.state.velocities())
+                }
+                (Level::Acceleration, _) => gamma * evaluated.acceleration - of(&self.change),
+            };
+        }
+        if self.right.iter().all(|r| r.is_finite()) {
+            Ok(())
+        } else {
+            Err(Failure::NotANumber { element: self.system.find_not_a_number() })
+        }
+    }
+
+    /// Corrects the positions where the velocities' correction leaves `g(x) ≠ 0`.
+    fn correct_positions(&mut self, gamma: f64) {
+        let n = self.system.velocity_count();
+        self.position_right[..n].fill(0.0);
+        for (row, &place) in self.system.rows.iter().enumerate() {
+            let evaluated = &self.system.evaluated[place];
+            let constraint = &self.system.constraints[place];
+            let moved = gamma * evaluated.rate_of(&constraint.bodies, &self.right[..n]);
+            self.position_right[n + row] =
+                if constraint.level == Level::Position { -evaluated.error - moved } else { 0.0 };
+        }
+        self.factors.solve(&mut self.position_right);
+    }
+
+    /// Size of a Newton correction in units of the error tolerance.
+    fn correction_norm(&self, gamma: f64) -> f64 {
+        let n = self.system.velocity_count();
+        let (length, rate) = (self.scales.length, self.scales.rate);
+        let mut norm = 0.0_f64;
+        for k in 0..n {
+            let unit = if k % 6 < 3 { length } else { 1.0 };
+            norm = norm.max((gamma * self.right[k]).abs() / unit);
+            if self.formulation == Formulation::Si2 {
+                norm = norm.max(self.right[k].abs() / (unit * rate));
+                norm = norm.max(self.position_right[k].abs() / unit);
+            }
+        }
+        norm / self.tolerance
+    }
+
+    fn newton(&mut self, step: &bdf::Step<'_>, mut renew: bool) -> Result<(), (Failure, bool)> {
+        let gamma = step.gamma;
+        let n = self.system.velocity_count();
+        let rows = match self.formulation {
+            Formulation::I3 => Rows::Position,
+            Formulation::Si2 => Rows::Velocity,
+        };
+        let fresh = renew;
+        let mut last = 0.0;
+        let mut worst = 0;
+        for iteration in 0..self.newton_iterations {
+            self.system.evaluate(&self.state, renew);
+            self.residual(step).map_err(|failure| (failure, fresh))?;
+            if renew {
+                self.factored = None;
+                self.work.factorisations += 1;
+                self.system.assemble(rows, gamma, &self.change, &self.trial, &mut self.matrix);
+                let factored = self.factors.factor(&self.matrix);
+                factored.map_err(|singular| (Failure::Singular(singular), true))?;
+                self.factored = Some(gamma);
+                renew = false;
+            }
+            self.factors.solve(&mut self.right);
+            for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
+                *impulse += change;
+            }
+            match self.formulation {
+                Formulation::Si2 => {
+                    self.correct_positions(gamma);
+                    for k in 0..n {
+                        self.state.velocities_mut()[k] += self.right[k];
+                        self.shift[k] += self.position_right[k];
+                    }
+                    self.positions_from_velocities(step).map_err(|failure| (failure, fresh))?;
+                }
+                Formulation::I3 => {
+                    for k in 0..n {
+                        self.change[k] = gamma * self.right[k];
+                    }
+                    let change = std::mem::take(&mut self.change);
+                    self.state.displace(&change);
+                    self.change = change;
+                    self.velocities_from_positions(step);
+                }
+            }
+            let norm = self.correction_norm(gamma);
+            let size = |k: &usize| self.right[*k].abs();
+            worst = (0..n).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+            if !norm.is_finite() {
+                break;
+            }
+            if iteration > 0 {
+                self.rate = norm / f64::max(last, 1e-300);
+            }
+            let rate = if iteration == 0 { self.rate.clamp(0.1, 0.9) } else { self.rate };
+            if iteration > 0 && rate >= 1.0 && norm > NEWTON_TOLERANCE {
+                break;
+            }
+            let left = if rate < 1.0 { norm * rate / (1.0 - rate) } else { norm };
+            if left <= NEWTON_TOLERANCE || norm == 0.0 {
+                return Ok(());
+            }
+            last = norm;
+        }
+        Err((Failure::NotConverged { unknown: worst }, fresh))
+    }
+
+    fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
+        self.state.time = step.time;
+        self.state.values.copy_from_slice(prediction);
+        self.shift.fill(0.0);
+        for (impulse, multiplier) in self.impulses.iter_mut().zip(&self.multipliers) {
+            *impulse = step.gamma * multiplier;
+        }
+        let bodies = self.system.model.bodies.len();
+        for body in 0..bodies {
+            let q = self.state.orientation(body).normalized();
+            let place = POSITIONS * body + 3;
+            q.write(&mut self.state.values[place..place + 4]);
+        }
+        match self.formulation {
+            Formulation::Si2 => self.positions_from_velocities(step),
+            Formulation::I3 => {
+                self.velocities_from_positions(step);
+                Ok(())
+            }
+        }
+    }
+}
+
+impl bdf::System for Dynamics {
+    type Failure = Failure;
+
+    fn solve(&mut self, step: &bdf::Step<'_>, y: &mut [f64]) -> Result<(), Failure> {
+        let stale = self
+            .factored
+            .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
+        let mut renew = stale || self.rate > SLOW_RATE;
+        loop {
+            self.load(step, y)?;
+            match self.newton(step, renew) {
+                Ok(()) => break,
+                Err((failure, true)) => {
+                    self.rate = 1.0;
+                    return Err(failure);
+                }
+                Err((_, false)) => renew = true,
+            }
+        }
+        for (multiplier, impulse) in self.multipliers.iter_mut().zip(&self.impulses) {
+            *multiplier = impulse / step.gamma;
+        }
+        y.copy_from_slice(&self.state.values);
+        Ok(())
+    }
+
+    fn norm(&self, difference: &[f64]) -> f64 {
+        let bodies = self.system.model.bodies.len();
+        let (length, rate) = (self.scales.length, self.scales.rate);
+        let mut norm = 0.0_f64;
+        for (k, d) in difference[..POSITIONS * bodies].iter().enumerate() {
+            // A rotation is twice the change of its quaternion.
+            let unit = if k % POSITIONS < 3 { length } else { 0.5 };
+            norm = norm.max(d.abs() / unit);
+            // `max` would pass over what is not a number.
+            if d.is_nan() {
+                return f64::NAN;
+            }
+        }
+        if self.formulation == Formulation::Si2 {
+            for (k, d) in difference[POSITIONS * bodies..].iter().enumerate() {
+                let unit = if k % VELOCITIES < 3 { length * rate } else { rate };
+                norm = norm.max(d.abs() / unit);
+            }
+        }
+        norm / self.tolerance
+    }
+
+    fn accepted(&mut self, step: &bdf::Step<'_>, y: &[f64]) {
+        self.state.time = step.time;
+        self.state.values.copy_from_slice(y);
+        self.system.evaluate(&self.state, false);
+        self.previous.clone_from(&self.system.history.frictions);
+        self.system.accept_frictions(step.size);
+        self.system.remember_angles();
+        let u = std::mem::take(&mut self.state);
+        self.observe_rates(u.velocities());
+        self.state = u;
+    }
+}

@@ -1,0 +1,261 @@
+//! Scalar constraint equations between two markers and all their derivatives.
+//!
+//! Every joint is made of the two kinds of equations of Haug (*Computer Aided Kinematics and
+//! Dynamics of Mechanical Systems*, section 9.2), with `d = o_I − o_J`:
+//!
+//! ```text
+//! along   g = d · a_J            a_J an axis of J; the force acts at the origin of I
+//! axes    g = a_I · b_J          axes of I and of J; a torque along a_I × b_J
+//! ```
+//!
+//! and motions add the angle about z of J, `atan2(x_I · y_J, x_I · x_J)`.
+//!
+//! With a multiplier λ an equation applies to I the force and torque `λ ∂g/∂(δr_I, δθ_I)`, and to J
+//! `λ ∂g/∂(δr_J, δθ_J)`. The twelve local motions are `δr_I, δθ_I, δr_J, δθ_J`, rotations along
+//! ground axes. All derivatives are exact, also off the constraint; tests check them by
+//! differences.
+
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+
+use crate::rotation::skew;
+use crate::state::MarkerFrame;
+
+/// Vector over the twelve local motions of a pair of bodies.
+pub(crate) type Local = SVector<f64, 12>;
+/// Matrix over the twelve local motions of a pair of bodies.
+pub(crate) type LocalMatrix = SMatrix<f64, 12, 12>;
+
+/// The kinds of scalar equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Equation {
+    /// `d · a_J` with axis `0..3` of J.
+    Along(usize),
+    /// Axis of I times axis of J.
+    Axes(usize, usize),
+    /// Angle about z of J.
+    AboutZ,
+}
+
+/// An equation at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row {
+    /// `g`.
+    pub(crate) value: f64,
+    /// `∂g` by the local motions: the constraint Jacobian `G`.
+    pub(crate) jacobian: Local,
+    /// `g̈` where all accelerations are zero: `Ġ u`.
+    pub(crate) bias: f64,
+}
+
+fn parts(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>, d: &Vector3<f64>) -> Local {
+    let mut local = Local::zeros();
+    local.fixed_rows_mut::<3>(0).copy_from(a);
+    local.fixed_rows_mut::<3>(3).copy_from(b);
+    local.fixed_rows_mut::<3>(6).copy_from(c);
+    local.fixed_rows_mut::<3>(9).copy_from(d);
+    local
+}
+
+fn add_block(matrix: &mut LocalMatrix, row: usize, column: usize, block: &Matrix3<f64>) {
+    let mut view = matrix.fixed_view_mut::<3, 3>(row, column);
+    view += block;
+}
+
+impl Equation {
+    /// Value, Jacobian and bias.
+    pub(crate) fn evaluate(self, i: &MarkerFrame, j: &MarkerFrame) -> Row {
+        match self {
+            Self::Along(k) => along(i, j, k),
+            Self::Axes(k, l) => axes(i, j, k, l),
+            Self::AboutZ => about_z(i, j),
+        }
+    }
+
+    /// `∂(Gᵀ)/∂x` for a unit multiplier: the change of the reaction with the configuration.
+    ///
+    /// With the multiplier it is the geometric stiffness `∂(Gᵀλ)/∂x`; its transpose times the
+    /// velocities is `∂(G u)/∂x`.
+    pub(crate) fn stiffness(self, i: &MarkerFrame, j: &MarkerFrame) -> LocalMatrix {
+        match self {
+            Self::Along(k) => along_stiffness(i, j, k),
+            Self::Axes(k, l) => axes_stiffness(i, j, k, l),
+            Self::AboutZ => about_z_stiffness(i, j),
+        }
+    }
+}
+
+/// Velocities of both bodies in the order of the local motions.
+pub(crate) fn local_velocities(i: &MarkerFrame, j: &MarkerFrame) -> Local {
+    let centre = |m: &MarkerFrame| m.velocity - m.omega.cross(&m.arm);
+    parts(&centre(i), &i.omega, &centre(j), &j.omega)
+}
+
+fn along(i: &MarkerFrame, j: &MarkerFrame, k: usize) -> Row {
+    let a = j.axis(k);
+    let d = i.origin - j.origin;
+    // Where the force acts, seen from J's centre of mass.
+    let c = j.arm + d;
+    let d_rate = i.velocity - j.velocity;
+    let a_rate = j.omega.cross(&a);
+    let d_bias =
+        i.omega.cross(&i.omega.cross(&i.arm)) - j.omega.cross(&j.omega.cross(&j.arm));
+    Row {
+        value: d.dot(&a),
+        jacobian: parts(&a, &i.arm.cross(&a), &-a, &-c.cross(&a)),
+        bias: a.dot(&d_bias) + 2.0 * a_rate.dot(&d_rate) + d.dot(&j.omega.cross(&a_rate)),
+    }
+}
+
+fn along_stiffness(i: &MarkerFrame, j: &MarkerFrame, k: usize) -> LocalMatrix {
+    let mut matrix = LocalMatrix::zeros();
+    // The pair of forces ±f at o_I, with f = a turning with J: δf = −f× δθ_J.
+    let f = j.axis(k);
+    let c = j.arm + i.origin - j.origin;
+    let (f, rho, c) = (skew(&f), skew(&i.arm), skew(&c));
+    add_block(&mut matrix, 0, 9, &-f);
+    add_block(&mut matrix, 3, 3, &(f * rho));
+    add_block(&mut matrix, 3, 9, &-(rho * f));
+    add_block(&mut matrix, 6, 9, &f);
+    add_block(&mut matrix, 9, 0, &f);
+    add_block(&mut matrix, 9, 3, &-(f * rho));
+    add_block(&mut matrix, 9, 6, &-f);
+    add_block(&mut matrix, 9, 9, &(c * f));
+    matrix
+}
+
+fn axes(i: &MarkerFrame, j: &MarkerFrame, k: usize, l: usize) -> Row {
+    let (a, b) = (i.axis(k), j.axis(l));
+    let n = a.cross(&b);
+    let (a_rate, b_rate) = (i.omega.cross(&a), j.omega.cross(&b));
+    let zero = Vector3::zeros();
+    Row {
+        value: a.dot(&b),
+        jacobian: parts(&zero, &n, &zero, &-n),
+        bias: i.omega.cross(&a_rate).dot(&b)
+            + 2.0 * a_rate.dot(&b_rate)
+            + a.dot(&j.omega.cross(&b_rate)),
+    }
+}
+
+fn axes_stiffness(i: &MarkerFrame, j: &MarkerFrame, k: usize, l: usize) -> LocalMatrix {
+    let mut matrix = LocalMatrix::zeros();
+    // δ(a × b) = b×a× δθ_I − a×b× δθ_J
+    let (a, b) = (skew(&i.axis(k)), skew(&j.axis(l)));
+    let (by_i, by_j) = (b * a, -a * b);
+    add_block(&mut matrix, 3, 3, &by_i);
+    add_block(&mut matrix, 3, 9, &by_j);
+    add_block(&mut matrix, 9, 3, &-by_i);
+    add_block(&mut matrix, 9, 9, &-by_j);
+    matrix
+}
+
+fn about_z(i: &MarkerFrame, j: &MarkerFrame) -> Row {
+    let sine = axes(i, j, 0, 1);
+    let cosine = axes(i, j, 0, 0);
+    let (s, c) = (sine.value, cosine.value);
+    let r2 = s * s + c * c;
+    let jacobian = (c * sine.jacobian - s * cosine.jacobian) / r2;
+    // Rates of s and c from their Jacobians and the velocities.
+    let u = parts(&i.velocity, &i.omega, &j.velocity, &j.omega);
+    let (s_rate, c_rate) = (sine.jacobian.dot(&u), cosine.jacobian.dot(&u));
+    let bias = (c * sine.bias - s * cosine.bias) / r2
+        - 2.0 * (s * s_rate + c * c_rate) * (c * s_rate - s * c_rate) / (r2 * r2);
+    Row { value: s.atan2(c), jacobian, bias }
+}
+
+fn about_z_stiffness(i: &MarkerFrame, j: &MarkerFrame) -> LocalMatrix {
+    let sine = axes(i, j, 0, 1);
+    let cosine = axes(i, j, 0, 0);
+    let (s, c) = (sine.value, cosine.value);
+    let r2 = s * s + c * c;
+    // δ(c/r²) and δ(s/r²), with δs and δc along their Jacobians.
+    let (ds, dc) = (sine.jacobian, cosine.jacobian);
+    let d_r2 = 2.0 * (s * ds + c * dc);
+    let by_sine = (dc - d_r2 * (c / r2)) / r2;
+    let by_cosine = (ds - d_r2 * (s / r2)) / r2;
+    axes_stiffness(i, j, 0, 1) * (c / r2) - axes_stiffness(i, j, 0, 0) * (s / r2)
+        + ds * by_sine.transpose()
+        - dc * by_cosine.transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotation::Quaternion;
+
+    /// Two markers on two moving bodies in general position, displaced by `change` (12 numbers).
+    fn frames(change: &Local) -> [MarkerFrame; 2] {
+        let mut made = [(0usize, 0.3), (1, 1.7)].map(|(body, seed): (usize, f64)| {
+            let r = |k: f64| Vector3::new((seed + k).sin(), (seed * k).cos(), (k - seed).sin());
+            let place = 6 * body;
+            let delta = change.fixed_rows::<3>(place).into_owned();
+            let theta = change.fixed_rows::<3>(place + 3).into_owned();
+            let turn = Quaternion::exp(&theta).matrix();
+            let omega = 0.9 * r(4.0);
+            let arm = turn * r(2.0);
+            MarkerFrame {
+                body: Some(body),
+                origin: r(1.0) + delta + arm,
+                arm,
+                axes: turn * Quaternion::exp(&r(3.0)).matrix(),
+                velocity: 1.3 * r(5.0) + omega.cross(&arm),
+                omega,
+            }
+        });
+        made[0].body = Some(0);
+        made
+    }
+
+    const ALL: [Equation; 6] = [
+        Equation::Along(0),
+        Equation::Along(2),
+        Equation::Axes(2, 0),
+        Equation::Axes(0, 1),
+        Equation::Axes(2, 2),
+        Equation::AboutZ,
+    ];
+
+    /// Central differences of `f` over the twelve motions at step 1e-5: truncation 1e-10 times the
+    /// third derivative, rounding 1e-11; the tests allow 1e-8.
+    fn differences(f: impl Fn(&Local) -> Local) -> LocalMatrix {
+        let mut slopes = LocalMatrix::zeros();
+        for k in 0..12 {
+            let mut step = Local::zeros();
+            step[k] = 1e-5;
+            slopes.set_column(k, &((f(&step) - f(&-step)) / 2e-5));
+        }
+        slopes
+    }
+
+    #[test]
+    fn jacobian_and_stiffness_match_differences() {
+        let [i, j] = frames(&Local::zeros());
+        for equation in ALL {
+            let value = |x: &Local| {
+                let [i, j] = frames(x);
+                Local::repeat(equation.evaluate(&i, &j).value)
+            };
+            let jacobian = differences(value).row(0).transpose();
+            assert!((jacobian - equation.evaluate(&i, &j).jacobian).norm() < 1e-8, "{equation:?}");
+            let gradient = |x: &Local| {
+                let [i, j] = frames(x);
+                equation.evaluate(&i, &j).jacobian
+            };
+            let stiffness = differences(gradient);
+            let error = (stiffness - equation.stiffness(&i, &j)).norm();
+            assert!(error < 1e-8, "{equation:?} {error}");
+        }
+    }
+
+    #[test]
+    fn bias_is_the_acceleration_at_constant_velocities() {
+        let [i, j] = frames(&Local::zeros());
+        let u = local_velocities(&i, &j);
+        for equation in ALL {
+            // Rate of G u along the motion with u held: ∂(G u)/∂x · u.
+            let bias = (equation.stiffness(&i, &j).transpose() * u).dot(&u);
+            let row = equation.evaluate(&i, &j);
+            assert!((row.bias - bias).abs() < 1e-12 * (1.0 + bias.abs()), "{equation:?}");
+        }
+    }
+}

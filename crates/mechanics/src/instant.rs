@@ -1,0 +1,252 @@
+//! Accelerations, reactions and friction of one instant, and the return to the constraints.
+
+use numerics::linear::{Matrix, Singular, SparseLu};
+
+use crate::constraint::Owner;
+use crate::model::Level;
+use crate::state::State;
+use crate::system::{Rows, System};
+
+/// Newton iterations for reactions with friction before giving up.
+const ITERATIONS: usize = 50;
+
+/// Why equations could not be solved; rows and elements are named by [`System::describe`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The Newton matrix has no inverse: equation and unknown that depend on the others.
+    Singular(Singular),
+    /// Newton's iteration did not converge; the unknown that changed most.
+    NotConverged {
+        /// Place among velocities and multipliers.
+        unknown: usize,
+    },
+    /// An element's function gave something that is not a number.
+    NotANumber {
+        /// The element.
+        element: String,
+    },
+    /// A body would turn too far in one step.
+    TurnsTooFar {
+        /// The body.
+        body: usize,
+    },
+}
+
+/// Solves the equations at γ = 0: matrix, factors and right-hand side with fixed storage.
+#[derive(Clone, Debug)]
+pub(crate) struct Instant {
+    matrix: Matrix,
+    factors: SparseLu,
+    right: Vec<f64>,
+    force: Vec<f64>,
+    momentum: Vec<f64>,
+    zero: Vec<f64>,
+}
+
+impl Instant {
+    pub(crate) fn new(system: &System) -> Self {
+        let n = system.velocity_count();
+        let size = n + system.row_count();
+        Self {
+            matrix: Matrix::new(size),
+            factors: SparseLu::new(),
+            right: vec![0.0; size],
+            force: vec![0.0; n],
+            momentum: vec![0.0; n],
+            zero: vec![0.0; n],
+        }
+    }
+
+    /// Accelerations `u̇` and multipliers `λ` at `state`, with friction and reactions of the same
+    /// instant. `accelerations` and `multipliers` hold the first guess on entry.
+    pub(crate) fn accelerations(
+        &mut self,
+        system: &mut System,
+        state: &State,
+        accelerations: &mut [f64],
+        multipliers: &mut [f64],
+    ) -> Result<(), Failure> {
+        system.evaluate(state, true);
+        let n = system.velocity_count();
+        let mut last = f64::INFINITY;
+        let mut worst = 0;
+        for iteration in 0..ITERATIONS {
+            self.residual(system, accelerations, multipliers)?;
+            // Friction in the reactions makes the equations nonlinear; without it one solve is all.
+            system.assemble(Rows::Position, 0.0, &self.zero, multipliers, &mut self.matrix);
+            self.factors.factor(&self.matrix).map_err(Failure::Singular)?;
+            self.factors.solve(&mut self.right);
+            let mut change = 0.0_f64;
+            let mut size = 0.0_f64;
+            for row in 0..multipliers.len() {
+                if self.right[n + row].abs() > change {
+                    change = self.right[n + row].abs();
+                    worst = n + row;
+                }
+                multipliers[row] += self.right[n + row];
+                size = size.max(multipliers[row].abs());
+            }
+            for k in 0..n {
+                accelerations[k] += self.right[k];
+            }
+            if !(change.is_finite() && accelerations.iter().all(|a| a.is_finite())) {
+                return Err(self.not_a_number(system));
+            }
+            let linear = system.model.frictions.is_empty();
+            // The second solve cleans up the rounding of the first.
+            if iteration > 0 && (linear || change <= 1e-12 * size || change >= 0.5 * last && change <= 1e-9 * size) {
+                return Ok(());
+            }
+            last = change;
+        }
+        Err(Failure::NotConverged { unknown: worst })
+    }
+
+    /// Right-hand side: forces less inertia, and what the constraints lack.
+    fn residual(
+        &mut self,
+        system: &mut System,
+        accelerations: &[f64],
+        multipliers: &[f64],
+    ) -> Result<(), Failure> {
+        let n = system.velocity_count();
+        system.mass_times(accelerations, &mut self.momentum);
+        system.forces(multipliers, &mut self.force);
+        for k in 0..n {
+            self.right[k] = self.force[k] - self.momentum[k];
+        }
+        for (row, &place) in system.rows.iter().enumerate() {
+            let evaluated = &system.evaluated[place];
+            let bodies = &system.constraints[place].bodies;
+            self.right[n + row] = evaluated.acceleration - evaluated.rate_of(bodies, accelerations);
+        }
+        if self.right.iter().all(|r| r.is_finite()) {
+            Ok(())
+        } else {
+            Err(self.not_a_number(system))
+        }
+    }
+
+    fn not_a_number(&self, system: &mut System) -> Failure {
+        Failure::NotANumber { element: system.find_not_a_number() }
+    }
+
+    /// Moves `state` onto the position constraints and then its velocities onto the velocity
+    /// constraints, by the least change in the metric of the mass matrix.
+    pub(crate) fn project(
+        &mut self,
+        system: &mut System,
+        state: &mut State,
+        multipliers: &[f64],
+        length: f64,
+    ) -> Result<(), Failure> {
+        let n = system.velocity_count();
+        system.evaluate(state, true);
+        system.assemble(Rows::Position, 0.0, &self.zero, multipliers, &mut self.matrix);
+        self.factors.factor(&self.matrix).map_err(Failure::Singular)?;
+        // One matrix serves: the corrections are of the size of the integration error.
+        for _ in 0..10 {
+            let mut error = 0.0_f64;
+            self.right[..n].fill(0.0);
+            for (row, &place) in system.rows.iter().enumerate() {
+                self.right[n + row] = -system.evaluated[place].error;
+                error = error.max(system.evaluated[place].error.abs());
+            }
+            if error <= 1e-14 * length {
+                break;
+            }
+            self.factors.solve(&mut self.right);
+            state.displace(&self.right[..n]);
+            system.evaluate(state, true);
+        }
+        self.right[..n].fill(0.0);
+        for (row, &place) in system.rows.iter().enumerate() {
+            let evaluated = &system.evaluated[place];
+            let rate = evaluated.rate_of(&system.constraints[place].bodies, state.velocities());
+            let prescribed = system.constraints[place].level != Level::Acceleration;
+            self.right[n + row] = if prescribed { evaluated.rate - rate } else { 0.0 };
+        }
+        self.factors.solve(&mut self.right);
+        for (u, change) in state.velocities_mut().iter_mut().zip(&self.right[..n]) {
+            *u += change;
+        }
+        system.evaluate(state, true);
+        Ok(())
+    }
+}
+
+impl System {
+    /// Names the element whose function is not a number at the instant evaluated last.
+    pub(crate) fn find_not_a_number(&mut self) -> String {
+        for place in 0..self.model.forces.len() {
+            if !self.force_value(place).is_finite() {
+                return self.model.forces[place].label.to_string();
+            }
+        }
+        for (constraint, evaluated) in self.constraints.iter().zip(&self.evaluated) {
+            let sum = evaluated.error + evaluated.rate + evaluated.acceleration;
+            if !sum.is_finite() {
+                return self.owner_label(constraint.owner).to_string();
+            }
+        }
+        for (body, frame) in self.model.bodies.iter().zip(&self.bodies) {
+            if !(frame.centre.sum() + frame.velocity.sum() + frame.omega.sum()).is_finite() {
+                return body.label.to_string();
+            }
+        }
+        "the reactions".to_owned()
+    }
+
+    /// Label of the element that a constraint equation belongs to.
+    #[must_use]
+    pub fn owner_label(&self, owner: Owner) -> &crate::model::Label {
+        match owner {
+            Owner::Joint(place) => &self.model.joints[place].label,
+            Owner::Motion(place) => &self.model.motions[place].label,
+            Owner::General(place) => &self.model.constraints[place].label,
+        }
+    }
+
+    /// What a row or unknown of the Newton matrix means, for messages.
+    #[must_use]
+    pub fn describe(&self, place: usize) -> String {
+        let n = self.velocity_count();
+        if place < n {
+            let component =
+                ["X", "Y", "Z", "rotation about X", "rotation about Y", "rotation about Z"];
+            return format!("{}, {}", self.model.bodies[place / 6].label, component[place % 6]);
+        }
+        match self.rows.get(place - n) {
+            Some(&constraint) => {
+                let constraint = &self.constraints[constraint];
+                let name = crate::constraint::name(constraint.form);
+                format!("{}, equation {name}", self.owner_label(constraint.owner))
+            }
+            None => "an unknown equation".to_owned(),
+        }
+    }
+
+    /// A failure in mechanical words.
+    #[must_use]
+    pub fn explain(&self, failure: &Failure) -> String {
+        match failure {
+            Failure::Singular(singular) => format!(
+                "the equations have no unique solution near {} (unknown of {}); likely causes: a \
+                 part without mass that can move freely, a position where the mechanism locks, or \
+                 friction so strong that the joint jams",
+                self.describe(singular.row),
+                self.describe(singular.column)
+            ),
+            Failure::NotConverged { unknown } => format!(
+                "Newton's iteration did not converge; {} changed most",
+                self.describe(*unknown)
+            ),
+            Failure::NotANumber { element } => {
+                format!("{element} gives a value that is not a finite number")
+            }
+            Failure::TurnsTooFar { body } => {
+                format!("{} would turn too far in one step", self.model.bodies[*body].label)
+            }
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! The mechanical model: what is given, before any equations are numbered.
+//!
+//! Quantities are in the dataset's units, except that masses and inertias are divided by the unit
+//! consistency factor (`Force · UCF = Mass · Acceleration`), so that force = mass · acceleration.
+//! Angles are radians. Elements refer to one another by their place in the model's lists.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::expression::Program;
+use crate::measure::Measure;
+use crate::rotation::Quaternion;
+
+/// How an element is called in messages: its statement, id and name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// Statement name, such as `JOINT`.
+    pub statement: &'static str,
+    /// Id in the dataset.
+    pub id: u32,
+    /// Name of the object in Adams View, or empty.
+    pub name: String,
+}
+
+impl std::fmt::Display for Label {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}/{}", self.statement, self.id)?;
+        if !self.name.is_empty() {
+            write!(f, " ({})", self.name)?;
+        }
+        Ok(())
+    }
+}
+
+/// A rigid body, or a point mass.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// How it is called.
+    pub label: Label,
+    /// Mass divided by the unit consistency factor; zero where the motion is determined.
+    pub mass: f64,
+    /// Inertia about the centre of mass along part axes, divided by the unit consistency factor.
+    pub inertia: Matrix3<f64>,
+    /// Centre of mass from the part's origin, part axes.
+    pub centre: Vector3<f64>,
+    /// Position of the part's origin in ground, as given.
+    pub origin: Vector3<f64>,
+    /// Orientation of the part, part axes to ground axes, as given.
+    pub orientation: Quaternion,
+    /// Velocity of the centre of mass, ground axes, as given.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity, ground axes, as given.
+    pub angular_velocity: Vector3<f64>,
+    /// Position and rotation components that assembly must not change (x, y, z, then rotation
+    /// about the ground axes).
+    pub exact: [bool; 6],
+    /// Velocity components that were given, and so weigh more than free ones at assembly.
+    pub given_velocity: [bool; 6],
+    /// False for a point mass, which has a position only.
+    pub rotates: bool,
+}
+
+/// A frame fixed to a body or to ground.
+#[derive(Clone, Debug)]
+pub struct Marker {
+    /// Id in the dataset.
+    pub id: u32,
+    /// The body it is fixed to; `None` is ground.
+    pub body: Option<usize>,
+    /// Origin: from the body's centre of mass along part axes, or in ground.
+    pub offset: Vector3<f64>,
+    /// Axes: columns along part axes, or ground axes.
+    pub axes: Matrix3<f64>,
+}
+
+/// The kinds of joints and joint primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    /// Origins coincide, z axes parallel: turns about z.
+    Revolute,
+    /// Same orientation, I's origin on the z axis of J: slides along z.
+    Translational,
+    /// I's origin on the z axis of J, z axes parallel: turns about and slides along z.
+    Cylindrical,
+    /// Origins coincide.
+    Spherical,
+    /// I's origin in the xy plane of J, z axes parallel.
+    Planar,
+    /// Origins and axes coincide.
+    Fixed,
+    /// Origins coincide, x of I perpendicular to y of J.
+    Hooke,
+    /// Origins coincide, z of I perpendicular to z of J.
+    Universal,
+    /// Primitive: origins coincide.
+    AtPoint,
+    /// Primitive: I's origin on the z axis of J.
+    Inline,
+    /// Primitive: I's origin in the xy plane of J.
+    Inplane,
+    /// Primitive: same orientation.
+    Orientation,
+    /// Primitive: z axes parallel.
+    ParallelAxes,
+    /// Primitive: z axes perpendicular.
+    Perpendicular,
+}
+
+/// A displacement and a velocity that assembly has to meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointStart {
+    /// Displacement (length or radians), where given.
+    pub displacement: Option<f64>,
+    /// Velocity, where given.
+    pub velocity: Option<f64>,
+}
+
+/// A joint or joint primitive between two markers.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// How it is called.
+    pub label: Label,
+    /// What it locks.
+    pub kind: JointKind,
+    /// Marker I.
+    pub i: usize,
+    /// Marker J.
+    pub j: usize,
+    /// Initial displacement along z of J.
+    pub translation_start: JointStart,
+    /// Initial rotation about z of J.
+    pub rotation_start: JointStart,
+}
+
+/// What a motion prescribes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionFreedom {
+    /// Displacement of I from J along an axis of J (0, 1, 2).
+    Along(usize),
+    /// Rotation of I against J about z of J, from x of J to x of I.
+    AboutZ,
+}
+
+/// The level at which a motion or constraint is prescribed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// The displacement itself.
+    Position,
+    /// Its rate.
+    Velocity,
+    /// Its second derivative.
+    Acceleration,
+}
+
+/// A displacement, velocity or acceleration prescribed as a function of time.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// How it is called.
+    pub label: Label,
+    /// Marker I.
+    pub i: usize,
+    /// Marker J.
+    pub j: usize,
+    /// What is prescribed.
+    pub freedom: MotionFreedom,
+    /// At which level.
+    pub level: Level,
+    /// The function; it reads time only.
+    pub function: Program,
+    /// Displacement and velocity to start from, for the levels that need them.
+    pub start: JointStart,
+}
+
+/// A constraint `function = 0` on displacements and time.
+#[derive(Clone, Debug)]
+pub struct GeneralConstraint {
+    /// How it is called.
+    pub label: Label,
+    /// The function of displacement measures and time.
+    pub function: Program,
+}
+
+/// How a single-component force acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceKind {
+    /// Along the line from J to I, on both, positive apart.
+    LineOfSight,
+    /// Along z of J, on I only.
+    AlongZ,
+    /// Torque about z of J on I, the opposite on J.
+    AboutZ,
+    /// Torque about z of J on I only.
+    AboutZActionOnly,
+}
+
+/// A force or torque with one component given by a function.
+#[derive(Clone, Debug)]
+pub struct SingleForce {
+    /// How it is called.
+    pub label: Label,
+    /// Marker I.
+    pub i: usize,
+    /// Marker J.
+    pub j: usize,
+    /// How it acts.
+    pub kind: ForceKind,
+    /// Its value: a function of time, displacements and velocities.
+    pub function: Program,
+}
+
+/// Which joint geometry turns a reaction into a friction load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrictionJoint {
+    /// Sliding along z.
+    Translational(friction::TranslationalLoad),
+    /// Turning about z.
+    Revolute(friction::RevoluteLoad),
+    /// Turning about any axis.
+    Spherical(friction::SphericalLoad),
+}
+
+impl FrictionJoint {
+    /// Arm that turns an angle into a displacement of the sliding surfaces; one for sliding.
+    #[must_use]
+    pub fn arm(&self) -> f64 {
+        match self {
+            Self::Translational(_) => 1.0,
+            Self::Revolute(load) => load.pin_radius,
+            Self::Spherical(load) => load.ball_radius,
+        }
+    }
+}
+
+/// Friction in a joint.
+#[derive(Clone, Debug)]
+pub struct Friction {
+    /// How it is called.
+    pub label: Label,
+    /// The joint, by its place in [`Model::joints`].
+    pub joint: usize,
+    /// The law.
+    pub law: friction::Original,
+    /// The load on the sliding surfaces.
+    pub load: FrictionJoint,
+    /// Friction force or torque that acts without load, zero where switched off.
+    pub preload: f64,
+    /// Limit of the part of the friction that the load causes.
+    pub maximum: f64,
+}
+
+/// The whole model.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// Moving bodies.
+    pub bodies: Vec<Body>,
+    /// Frames on them and on ground.
+    pub markers: Vec<Marker>,
+    /// Joints and joint primitives.
+    pub joints: Vec<Joint>,
+    /// Motions.
+    pub motions: Vec<Motion>,
+    /// General constraints.
+    pub constraints: Vec<GeneralConstraint>,
+    /// Single-component forces and spring-dampers.
+    pub forces: Vec<SingleForce>,
+    /// Friction in joints.
+    pub frictions: Vec<Friction>,
+    /// Quantities that functions read.
+    pub measures: Vec<Measure>,
+    /// Acceleration of gravity, ground axes.
+    pub gravity: Vector3<f64>,
+}

@@ -1,0 +1,421 @@
+//! A model run through time: assembly, dynamics between output times, snapshots.
+
+use nalgebra::{Matrix3, Vector3};
+use numerics::bdf::{self, Bdf};
+
+use crate::assembly::{Assembly, AssemblyError};
+use crate::dynamics::{Dynamics, Formulation, Scales, Work};
+use crate::instant::{Failure, Instant};
+use crate::model::Model;
+use crate::rotation::Quaternion;
+use crate::snapshot::Snapshot;
+use crate::state::{POSITIONS, State, VELOCITIES};
+use crate::system::System;
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// How constraints enter.
+    pub formulation: Formulation,
+    /// Error tolerance per step: relative to the model's length for positions, radians for
+    /// rotations, and with SI2 relative to the largest velocities for velocities.
+    pub error: f64,
+    /// Highest order of the formulas, 1 to 5.
+    pub highest_order: usize,
+    /// Longest step.
+    pub longest_step: f64,
+    /// Shortest step before the integration is given up.
+    pub shortest_step: f64,
+    /// Step to start with, where given.
+    pub first_step: Option<f64>,
+    /// Newton iterations per step before the step is tried again with a new matrix or shorter.
+    pub newton_iterations: usize,
+}
+
+/// What the integrator did so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Steps, rejections and starts.
+    pub steps: bdf::Statistics,
+    /// Residuals and factorisations.
+    pub work: Work,
+}
+
+/// An accepted step, for tables and progress.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Time at its end.
+    pub time: f64,
+    /// Its length.
+    pub size: f64,
+    /// Order of the next step.
+    pub order: usize,
+    /// Counts so far.
+    pub statistics: Statistics,
+}
+
+/// Is told of steps and outputs while a simulation runs.
+pub trait Observer {
+    /// After every accepted step; false stops the run.
+    fn step(&mut self, report: &StepReport) -> bool;
+    /// At every output time; false stops the run.
+    fn output(&mut self, snapshot: &Snapshot<'_>) -> bool;
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// At the end time.
+    Completed,
+    /// The observer stopped it.
+    Stopped,
+}
+
+/// A run failed; everything up to its time was reported to the observer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunError {
+    /// Time of the last good state.
+    pub time: f64,
+    /// What happened, in mechanical words.
+    pub message: String,
+}
+
+impl std::fmt::Display for RunError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "at time {}: {}", self.time, self.message)
+    }
+}
+
+impl std::error::Error for RunError {}
+
+/// A model with its state.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    system: System,
+    state: State,
+    accelerations: Vec<f64>,
+    multipliers: Vec<f64>,
+    scales: Scales,
+    statistics: Statistics,
+}
+
+impl Simulation {
+    /// A model as it is given, at time zero. `second` is one second in the model's unit of time;
+    /// one radian per second is the rate below which velocities count as small.
+    #[must_use]
+    pub fn new(model: Model, second: f64) -> Self {
+        let system = System::new(model);
+        let scales = Scales { length: system.length_scale(), rate: 1.0 / second };
+        Self {
+            state: system.given_state(0.0),
+            accelerations: vec![0.0; system.velocity_count()],
+            multipliers: Vec::new(),
+            scales,
+            statistics: Statistics::default(),
+            system,
+        }
+    }
+
+    /// Brings the given positions and velocities onto the constraints and drops redundant ones.
+    ///
+    /// # Errors
+    /// [`AssemblyError`] where joints contradict one another.
+    pub fn assemble(&mut self) -> Result<Assembly, AssemblyError> {
+        let assembly = self.system.assemble_initial(&mut self.state)?;
+        self.multipliers = vec![0.0; self.system.row_count()];
+        Ok(assembly)
+    }
+
+    /// Solves accelerations, reactions and friction of the present instant.
+    ///
+    /// # Errors
+    /// [`RunError`] where they have no unique solution.
+    pub fn solve_instant(&mut self) -> Result<(), RunError> {
+        Instant::new(&self.system)
+            .accelerations(
+                &mut self.system,
+                &self.state,
+                &mut self.accelerations,
+                &mut self.multipliers,
+            )
+            .map_err(|failure| self.error(&failure))
+    }
+
+    /// Replaces element parameters and functions; bodies, markers and joints must be the same.
+    ///
+    /// # Panics
+    /// When the numbering of the equations would change.
+    pub fn replace_model(&mut self, model: Model) {
+        self.system.replace_model(model);
+    }
+
+    /// Puts the model into another state and history, such as one read from a file of results.
+    pub fn set_state(&mut self, state: State, creep: &[[f64; 3]]) {
+        self.state = state;
+        self.system.evaluate(&self.state, false);
+        self.system.start_history();
+        for (memory, creep) in self.system.history.frictions.iter_mut().zip(creep) {
+            memory.creep = *creep;
+        }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        self.system.model()
+    }
+
+    /// The equations.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Present state.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Counts of the work done so far.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// The present instant, as it was solved last.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot<'_> {
+        Snapshot::new(&self.system, &self.state, &self.accelerations, &self.multipliers)
+    }
+
+    fn error(&self, failure: &Failure) -> RunError {
+        RunError { time: self.state.time, message: self.system.explain(failure) }
+    }
+
+    /// Integrates to `end`, reporting every accepted step and the states at the rising `outputs`
+    /// (the last of which should be `end`).
+    ///
+    /// # Errors
+    /// [`RunError`]; the state is then that of the last good output.
+    pub fn run(
+        &mut self,
+        end: f64,
+        outputs: &[f64],
+        settings: &Settings,
+        observer: &mut impl Observer,
+    ) -> Result<Ending, RunError> {
+        let mut instant = Instant::new(&self.system);
+        let length = self.scales.length;
+        // Changed functions may have left the state off the constraints by rounding.
+        instant
+            .project(&mut self.system, &mut self.state, &self.multipliers, length)
+            .map_err(|failure| self.error(&failure))?;
+        instant
+            .accelerations(
+                &mut self.system,
+                &self.state,
+                &mut self.accelerations,
+                &mut self.multipliers,
+            )
+            .map_err(|failure| self.error(&failure))?;
+        let limits = bdf::Settings {
+            highest_order: settings.highest_order,
+            longest_step: settings.longest_step,
+            shortest_step: settings.shortest_step,
+        };
+        let mut dynamics =
+            Dynamics::new(self.system.clone(), settings.formulation, self.scales);
+        dynamics.tolerance = settings.error;
+        dynamics.newton_iterations = settings.newton_iterations;
+        dynamics.observe_rates(self.state.velocities());
+        dynamics.multipliers.copy_from_slice(&self.multipliers);
+        let mut bdf = Bdf::new(self.state.values.len(), limits);
+        let slope = slope(&self.state, &self.accelerations);
+        let first = match settings.first_step {
+            Some(first) => first,
+            None => self.first_step(&mut instant, &dynamics, &slope, end, settings),
+        };
+        bdf.start(self.state.time, &self.state.values, &slope, first);
+        let before = self.statistics;
+        let mut next = 0;
+        let mut ending = Ending::Completed;
+        while bdf.time() < end && ending == Ending::Completed {
+            let advanced = bdf.advance(&mut dynamics, end);
+            self.scales = dynamics.scales;
+            self.statistics = total(&before, bdf.statistics(), dynamics.work);
+            if let Err(error) = advanced {
+                return Err(self.run_error(&error));
+            }
+            let report = StepReport {
+                time: bdf.time(),
+                size: bdf.last_size(),
+                order: bdf.order(),
+                statistics: self.statistics,
+            };
+            while next < outputs.len() && outputs[next] <= bdf.time() {
+                self.take(&bdf, &dynamics, outputs[next], &mut instant)?;
+                next += 1;
+                if !observer.output(&self.snapshot()) {
+                    ending = Ending::Stopped;
+                    break;
+                }
+            }
+            if !observer.step(&report) {
+                ending = Ending::Stopped;
+            }
+        }
+        self.system.history.clone_from(&dynamics.system.history);
+        if ending == Ending::Completed {
+            self.take(&bdf, &dynamics, end, &mut instant)?;
+            self.system.history.clone_from(&dynamics.system.history);
+        }
+        Ok(ending)
+    }
+
+    /// State, accelerations and reactions at `time` within the last accepted step.
+    fn take(
+        &mut self,
+        bdf: &Bdf,
+        dynamics: &Dynamics,
+        time: f64,
+        instant: &mut Instant,
+    ) -> Result<(), RunError> {
+        bdf.interpolate(time, &mut self.state.values);
+        self.state.time = time;
+        for body in 0..self.state.bodies() {
+            let place = POSITIONS * body + 3;
+            let q = self.state.orientation(body).normalized();
+            q.write(&mut self.state.values[place..place + 4]);
+        }
+        self.system.history.clone_from(&dynamics.system.history);
+        // Creep within the step counts from its start where the joint was stuck there, and back
+        // from its end where the stick began within.
+        for (memory, previous) in
+            self.system.history.frictions.iter_mut().zip(&dynamics.previous)
+        {
+            if time < bdf.time() && previous.stuck {
+                *memory = *previous;
+            }
+        }
+        let solved = instant
+            .project(&mut self.system, &mut self.state, &self.multipliers, self.scales.length)
+            .and_then(|()| {
+                instant.accelerations(
+                    &mut self.system,
+                    &self.state,
+                    &mut self.accelerations,
+                    &mut self.multipliers,
+                )
+            });
+        solved.map_err(|failure| self.error(&failure))
+    }
+
+    /// A first step whose error by the formula of order one is half the tolerance, from the second
+    /// derivative; that of the velocities comes from the accelerations a little later.
+    fn first_step(
+        &self,
+        instant: &mut Instant,
+        dynamics: &Dynamics,
+        slope: &[f64],
+        end: f64,
+        settings: &Settings,
+    ) -> f64 {
+        let longest = settings.longest_step.min(end - self.state.time);
+        let ahead = 1e-3 * longest;
+        let mut later = self.clone();
+        later.state.time += ahead;
+        let step: Vec<f64> = self.system_step(ahead);
+        later.state.displace(&step);
+        for (u, a) in later.state.velocities_mut().iter_mut().zip(&self.accelerations) {
+            *u += ahead * a;
+        }
+        let solved = instant.accelerations(
+            &mut later.system,
+            &later.state,
+            &mut later.accelerations,
+            &mut later.multipliers,
+        );
+        if solved.is_err() {
+            return ahead;
+        }
+        let later_slope = self::slope(&later.state, &later.accelerations);
+        let half_curvature: Vec<f64> =
+            later_slope.iter().zip(slope).map(|(b, a)| 0.5 * (b - a) / ahead).collect();
+        let error = bdf::System::norm(dynamics, &half_curvature);
+        let size = (0.5 / error.max(1e-300)).sqrt();
+        if size.is_finite() { size.clamp(1e-6 * longest, 0.1 * longest) } else { ahead }
+    }
+
+    fn system_step(&self, time: f64) -> Vec<f64> {
+        self.state.velocities().iter().map(|u| u * time).collect()
+    }
+
+    fn run_error(&self, error: &bdf::Error<Failure>) -> RunError {
+        match error {
+            bdf::Error::Failed { time, cause } => RunError {
+                time: *time,
+                message: format!(
+                    "the step could not be solved with the shortest step allowed: {}",
+                    self.system.explain(cause)
+                ),
+            },
+            bdf::Error::Inaccurate { time, size } => RunError {
+                time: *time,
+                message: format!(
+                    "the error tolerance cannot be met with the shortest step allowed (the last \
+                     try was {size:.3e}); likely causes: a discontinuous function, or forces that \
+                     change faster than HMIN resolves"
+                ),
+            },
+        }
+    }
+}
+
+fn total(before: &Statistics, steps: bdf::Statistics, work: Work) -> Statistics {
+    Statistics {
+        steps: bdf::Statistics {
+            steps: before.steps.steps + steps.steps,
+            rejections: before.steps.rejections + steps.rejections,
+            failures: before.steps.failures + steps.failures,
+            starts: before.steps.starts + steps.starts,
+        },
+        work: Work {
+            residuals: before.work.residuals + work.residuals,
+            factorisations: before.work.factorisations + work.factorisations,
+        },
+    }
+}
+
+/// Time derivative of the integrator's vector.
+fn slope(state: &State, accelerations: &[f64]) -> Vec<f64> {
+    let mut slope = Vec::with_capacity(state.values.len());
+    for (body, u) in state.velocities().chunks_exact(VELOCITIES).enumerate() {
+        slope.extend_from_slice(&u[..3]);
+        let half = Quaternion { w: 0.0, v: 0.5 * Vector3::from_column_slice(&u[3..]) };
+        let rate = half.times(&state.orientation(body));
+        slope.extend_from_slice(&[rate.w, rate.v.x, rate.v.y, rate.v.z]);
+    }
+    slope.extend_from_slice(accelerations);
+    slope
+}
+
+/// Kinetic energy of the bodies, in the model's unit of energy.
+#[must_use]
+pub fn kinetic_energy(model: &Model, state: &State) -> f64 {
+    let energies = model.bodies.iter().zip(state.velocities().chunks_exact(VELOCITIES));
+    let energies = energies.enumerate().map(|(place, (body, u))| {
+        let velocity = Vector3::from_column_slice(&u[..3]);
+        let rotation: Matrix3<f64> = state.orientation(place).matrix();
+        let omega = rotation.transpose() * Vector3::from_column_slice(&u[3..]);
+        0.5 * (body.mass * velocity.norm_squared() + omega.dot(&(body.inertia * omega)))
+    });
+    energies.sum()
+}
+
+/// Potential energy of the weight of the bodies, zero at the ground's origin.
+#[must_use]
+pub fn gravity_energy(model: &Model, state: &State) -> f64 {
+    let bodies = model.bodies.iter().enumerate();
+    bodies.map(|(place, body)| -body.mass * model.gravity.dot(&state.centre(place))).sum()
+}

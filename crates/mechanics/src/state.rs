@@ -1,0 +1,157 @@
+//! Where the bodies are and how they move.
+//!
+//! The integrator's vector holds seven numbers of position a body (centre of mass in ground, unit
+//! quaternion of the part) and then six of velocity a body (velocity of the centre of mass and
+//! angular velocity, both along ground axes).
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::model::{Body, Marker};
+use crate::rotation::Quaternion;
+
+/// Numbers of position for each body.
+pub const POSITIONS: usize = 7;
+/// Numbers of velocity for each body.
+pub const VELOCITIES: usize = 6;
+
+/// Time, positions and velocities of all bodies.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Time.
+    pub time: f64,
+    /// Positions, then velocities; see the module's description.
+    pub values: Vec<f64>,
+}
+
+impl State {
+    /// Number of bodies.
+    #[must_use]
+    pub fn bodies(&self) -> usize {
+        self.values.len() / (POSITIONS + VELOCITIES)
+    }
+
+    /// Centre of mass of a body in ground.
+    #[must_use]
+    pub fn centre(&self, body: usize) -> Vector3<f64> {
+        Vector3::from_column_slice(&self.values[body * POSITIONS..body * POSITIONS + 3])
+    }
+
+    /// Orientation of a body.
+    #[must_use]
+    pub fn orientation(&self, body: usize) -> Quaternion {
+        Quaternion::from_slice(&self.values[body * POSITIONS + 3..(body + 1) * POSITIONS])
+    }
+
+    /// Velocities of all bodies, six each.
+    #[must_use]
+    pub fn velocities(&self) -> &[f64] {
+        &self.values[self.bodies() * POSITIONS..]
+    }
+
+    /// Velocities of all bodies, six each.
+    pub fn velocities_mut(&mut self) -> &mut [f64] {
+        let bodies = self.bodies();
+        &mut self.values[bodies * POSITIONS..]
+    }
+
+    /// Displaces all bodies: six numbers a body, `δr` and the small rotation `δθ`, ground axes.
+    pub fn displace(&mut self, change: &[f64]) {
+        for (body, change) in change.chunks_exact(VELOCITIES).enumerate() {
+            let place = body * POSITIONS;
+            for axis in 0..3 {
+                self.values[place + axis] += change[axis];
+            }
+            let theta = Vector3::from_column_slice(&change[3..6]);
+            let turned = Quaternion::exp(&theta).times(&self.orientation(body)).normalized();
+            turned.write(&mut self.values[place + 3..place + POSITIONS]);
+        }
+    }
+}
+
+/// What the equations need of a body at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyFrame {
+    /// Centre of mass in ground.
+    pub centre: Vector3<f64>,
+    /// Part axes to ground axes.
+    pub rotation: Matrix3<f64>,
+    /// Velocity of the centre of mass, ground axes.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity, ground axes.
+    pub omega: Vector3<f64>,
+    /// Inertia about the centre of mass, ground axes.
+    pub inertia: Matrix3<f64>,
+}
+
+impl BodyFrame {
+    pub(crate) const fn at_rest() -> Self {
+        Self {
+            centre: Vector3::new(0.0, 0.0, 0.0),
+            rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+            velocity: Vector3::new(0.0, 0.0, 0.0),
+            omega: Vector3::new(0.0, 0.0, 0.0),
+            inertia: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        }
+    }
+
+    pub(crate) fn update(&mut self, state: &State, place: usize, body: &Body) {
+        let u = &state.velocities()[place * VELOCITIES..(place + 1) * VELOCITIES];
+        self.centre = state.centre(place);
+        self.rotation = state.orientation(place).matrix();
+        self.velocity = Vector3::from_column_slice(&u[..3]);
+        self.omega = Vector3::from_column_slice(&u[3..]);
+        self.inertia = self.rotation * body.inertia * self.rotation.transpose();
+    }
+}
+
+/// What the equations need of a marker at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct MarkerFrame {
+    /// The body it is fixed to; `None` is ground.
+    pub body: Option<usize>,
+    /// Origin in ground.
+    pub origin: Vector3<f64>,
+    /// Origin from the body's centre of mass, ground axes; zero on ground.
+    pub arm: Vector3<f64>,
+    /// Columns: the marker's axes along ground axes.
+    pub axes: Matrix3<f64>,
+    /// Velocity of the origin, ground axes.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity, ground axes.
+    pub omega: Vector3<f64>,
+}
+
+impl MarkerFrame {
+    /// The frame of `marker` on bodies that stand as `bodies`.
+    #[must_use]
+    pub fn new(marker: &Marker, bodies: &[BodyFrame]) -> Self {
+        match marker.body {
+            None => Self {
+                body: None,
+                origin: marker.offset,
+                arm: Vector3::zeros(),
+                axes: marker.axes,
+                velocity: Vector3::zeros(),
+                omega: Vector3::zeros(),
+            },
+            Some(place) => {
+                let body = &bodies[place];
+                let arm = body.rotation * marker.offset;
+                Self {
+                    body: Some(place),
+                    origin: body.centre + arm,
+                    arm,
+                    axes: body.rotation * marker.axes,
+                    velocity: body.velocity + body.omega.cross(&arm),
+                    omega: body.omega,
+                }
+            }
+        }
+    }
+
+    /// One of its axes along ground axes.
+    #[must_use]
+    pub fn axis(&self, k: usize) -> Vector3<f64> {
+        self.axes.column(k).into_owned()
+    }
+}
