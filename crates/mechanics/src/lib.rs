@@ -6,6 +6,8 @@ mod dynamics;
 mod equation;
 pub mod expression;
 mod instant;
+#[cfg(test)]
+mod jacobian_test;
 mod joint_friction;
 pub mod measure;
 pub mod model;

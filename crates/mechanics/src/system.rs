@@ -18,7 +18,7 @@
 //!
 //! At `γ = 0` it is the matrix of the instantaneous accelerations and reactions.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 use numerics::linear::Matrix;
 
 use crate::constraint::{Constraint, Evaluated, Form, Owner, list};
@@ -487,6 +487,30 @@ impl System {
         j.axes.transpose() * self.evaluated[constraint].local.fixed_rows::<3>(3)
     }
 
+    /// Change of the reaction moment along the axes of J with the local motions.
+    fn moment_change(
+        &self,
+        place: usize,
+        i: &MarkerFrame,
+        j: &MarkerFrame,
+        multipliers: &[f64],
+    ) -> SMatrix<f64, 3, 12> {
+        let mut by_turn = Matrix3::zeros();
+        for contribution in &self.reactions[place] {
+            let constraint = &self.constraints[contribution.constraint];
+            let Form::Pair { equation: Equation::Axes(k, l), .. } = constraint.form else { continue };
+            if let Some(row) = constraint.row {
+                // δ(A_Jᵀ (a × b)) = A_Jᵀ b× a× (δθ_I − δθ_J), as b is fixed to J.
+                by_turn += multipliers[row] * skew(&j.axis(l)) * skew(&i.axis(k));
+            }
+        }
+        let by_turn = j.axes.transpose() * by_turn;
+        let mut change = SMatrix::<f64, 3, 12>::zeros();
+        change.fixed_columns_mut::<3>(3).copy_from(&by_turn);
+        change.fixed_columns_mut::<3>(9).copy_from(&-by_turn);
+        change
+    }
+
     /// Friction element `place` with derivatives, and the frames of its joint's markers.
     pub(crate) fn friction(
         &self,
@@ -598,7 +622,10 @@ impl System {
         for place in 0..self.model.frictions.len() {
             let (element, i, j) = self.friction(place, multipliers);
             let sides = [i.body, j.body];
-            let moving = gamma * element.by_velocity + gamma * gamma * element.by_position;
+            let turning = element.by_reaction.fixed_columns::<3>(3)
+                * self.moment_change(place, &i, &j, multipliers);
+            let moving = gamma * element.by_velocity
+                + gamma * gamma * (element.by_position + turning);
             self.add_local_matrix(&sides, &moving, -1.0, matrix);
             for contribution in &self.reactions[place] {
                 let Some(row) = self.constraints[contribution.constraint].row else { continue };
