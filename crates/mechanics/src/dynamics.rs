@@ -39,11 +39,11 @@ pub enum Formulation {
 }
 
 /// Newton stops when what is left is this part of the error tolerance.
-const NEWTON_TOLERANCE: f64 = 0.02;
+const NEWTON_TOLERANCE: f64 = 0.05;
 /// A kept Newton matrix serves while γ stays within this part of its own.
 const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
-const SLOW_RATE: f64 = 0.25;
+const SLOW_RATE: f64 = 0.1;
 
 /// Counts of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
