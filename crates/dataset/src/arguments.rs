@@ -25,7 +25,7 @@ pub(crate) enum Kind {
     Word,
     /// Names with `:` or `,` between them, brackets round them allowed.
     Words,
-    /// Everything up to the next argument.
+    /// Everything up to `, NAME =` or a continued line that starts with the name of a flag.
     Text,
     /// Texts in quotes.
     Strings,
@@ -146,7 +146,7 @@ impl Parser<'_, '_> {
             match self.kind(self.at) {
                 Some(TokenKind::Comma) => {
                     let follows = self.kind(self.at + 1);
-                    if matches!(follows, None | Some(TokenKind::Comma)) && self.at > 0 {
+                    if matches!(follows, None | Some(TokenKind::Comma)) {
                         let span = self.span(self.at);
                         self.diagnostics.error(
                             Code::Syntax,
@@ -205,6 +205,9 @@ impl Parser<'_, '_> {
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);
                 error.help = near.map(|near| format!("is {near} meant?"));
+                if self.items[name_at].starts_line {
+                    error.note("the comma at the end of the line before continues the statement");
+                }
                 return self.skip_value();
             }
         };
@@ -251,7 +254,7 @@ impl Parser<'_, '_> {
             }
             Err(Refused) => {
                 self.unread.push(full);
-                self.skip_value();
+                self.skip_refused();
             }
         }
     }
@@ -272,6 +275,19 @@ impl Parser<'_, '_> {
                     }
                 }
                 _ => {}
+            }
+            self.at += 1;
+        }
+    }
+
+    /// Moves behind a value that is wrong, to `\\` or a comma before the name of an argument.
+    fn skip_refused(&mut self) {
+        loop {
+            self.skip_value();
+            let named = self.kind(self.at + 2) == Some(TokenKind::Equals);
+            let comma = self.kind(self.at) == Some(TokenKind::Comma);
+            if !comma || named || self.argument_at(self.at + 1) {
+                break;
             }
             self.at += 1;
         }
@@ -476,9 +492,9 @@ impl Parser<'_, '_> {
         let Some(comma) = self.items.get(at) else {
             return true;
         };
-        comma.kind == TokenKind::Comma
-            && self.argument_at(at + 1)
-            && (comma.continues || self.kind(at + 2) == Some(TokenKind::Equals))
+        let named = self.kind(at + 1) == Some(TokenKind::Word)
+            && self.kind(at + 2) == Some(TokenKind::Equals);
+        comma.kind == TokenKind::Comma && (named || (comma.continues && self.argument_at(at + 1)))
     }
 
     fn text(&mut self) -> Value {

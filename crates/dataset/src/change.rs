@@ -16,7 +16,7 @@ use crate::source::{Source, Span};
 use crate::statements;
 use crate::syntax::{Language, SyntaxTree};
 
-/// Reads one change of the model.
+/// Reads one change of the model, which can be used only if none of the diagnostics is an error.
 ///
 /// ```
 /// use dataset::{parse_change, ChangeKind, Source};
@@ -68,6 +68,16 @@ fn fixed(reading: &mut Reading, keywords: &[&'static str]) {
                 .diagnostics
                 .error(Code::InvalidChange, span, message);
         }
+    }
+}
+
+/// Reports a command without arguments.
+fn something(reading: &mut Reading) {
+    if reading.is_empty() {
+        let message = format!("{} gives nothing to change", reading.label());
+        reading
+            .diagnostics
+            .error(Code::MissingArgument, reading.head, message);
     }
 }
 
@@ -128,6 +138,7 @@ pub(crate) fn motion(reading: &mut Reading) -> Option<CommandKind> {
 /// FRICTION as a command.
 pub(crate) fn friction(reading: &mut Reading) -> Option<CommandKind> {
     fixed(reading, &["JOINT", "FORMULATION", "I_YOKE", "J_YOKE"]);
+    something(reading);
     let kind = ChangeKind::Friction {
         id: reading.id,
         arguments: Box::new(statements::friction_arguments(reading)),
@@ -137,12 +148,14 @@ pub(crate) fn friction(reading: &mut Reading) -> Option<CommandKind> {
 
 /// INTEGRATOR as a command.
 pub(crate) fn integrator(reading: &mut Reading) -> Option<CommandKind> {
+    something(reading);
     let kind = ChangeKind::Integrator(Box::new(statements::integrator(reading)));
     Some(change(reading, kind))
 }
 
 /// ACCGRAV as a command.
 pub(crate) fn gravity(reading: &mut Reading) -> Option<CommandKind> {
+    something(reading);
     let kind = ChangeKind::Gravity(statements::gravity(reading));
     Some(change(reading, kind))
 }

@@ -13,7 +13,8 @@ use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, item
 
 /// Reads a command file (`.acf`).
 ///
-/// All that is wrong is reported in one go, in the order of the file. Reading ends at STOP.
+/// All that is wrong is reported in one go, in the order of the file. The commands can be used
+/// only if none of the diagnostics is an error. Reading ends at STOP.
 ///
 /// ```
 /// use dataset::{read_commands, CommandKind, Source};

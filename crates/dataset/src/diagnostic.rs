@@ -137,9 +137,9 @@ impl Diagnostic {
     ///
     /// ```
     /// use dataset::{read_dataset, Source};
-    /// let source = Source::from_text("m.adm", "title\nPRAT/1, GROUND\n".to_string());
+    /// let source = Source::from_text("m.adm", "title\nPART/1, GROUND\nPRAT/2\n".to_string());
     /// let (_, diagnostics) = read_dataset(&source);
-    /// assert!(diagnostics[0].render(&source).starts_with("m.adm:2:1: error[unknown-statement]: "));
+    /// assert!(diagnostics[0].render(&source).starts_with("m.adm:3:1: error[unknown-statement]: "));
     /// ```
     #[must_use]
     pub fn render(&self, source: &Source) -> String {

@@ -62,8 +62,14 @@ pub(crate) fn nearest(
         .map(|name| (edits(word.as_bytes(), name.as_bytes()), name))
         .filter(|(edits, name)| *edits <= 1.max(name.len().max(word.len()) / 3))
         .filter(|(edits, name)| *edits < name.len())
-        .min_by_key(|(edits, _)| *edits)
+        // Of several, the one that starts like the word is meant.
+        .min_by_key(|(edits, name)| (*edits, usize::MAX - shared_start(&word, name)))
         .map(|(_, name)| name)
+}
+
+/// The number of letters that two names have in common at their starts.
+fn shared_start(a: &str, b: &str) -> usize {
+    a.bytes().zip(b.bytes()).take_while(|(a, b)| a == b).count()
 }
 
 /// No name of the language is longer than this.

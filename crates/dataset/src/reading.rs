@@ -88,6 +88,11 @@ impl<'a, 's> Reading<'a, 's> {
         self.argument(keyword).is_some() || self.unread.contains(&keyword)
     }
 
+    /// Whether there is no argument at all.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
     /// The place of an argument, else that of the head.
     pub(crate) fn place(&self, keyword: &str) -> Span {
         self.argument(keyword)

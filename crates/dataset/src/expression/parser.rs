@@ -350,10 +350,11 @@ impl Parser<'_> {
         self.brackets += 1;
         let mut arguments = Vec::new();
         let mut deepest = 0;
-        let empty = self
-            .peek()
-            .is_some_and(|item| item.kind == TokenKind::RightParenthesis);
-        while !empty {
+        loop {
+            let next = self.peek().map(|item| item.kind);
+            if arguments.is_empty() && next == Some(TokenKind::RightParenthesis) {
+                break;
+            }
             let first = self.used.len();
             let (argument, depth) = self.sum()?;
             let place = self.used.get(first).map_or(open.span, |item| item.span);

@@ -11,6 +11,8 @@ pub(crate) struct Item {
     /// Whether it is the comma that starts a continued line: a separator between arguments, and
     /// nothing at all inside an expression.
     pub(crate) continues: bool,
+    /// Whether it is the first item of a line of the statement but the first.
+    pub(crate) starts_line: bool,
 }
 
 /// Fills `items` with the items of a statement.
@@ -35,7 +37,8 @@ pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut 
             _ if token.is_trivia() => continue,
             _ => {}
         }
-        let continues = new_line && token.kind == TokenKind::Comma;
+        let starts_line = new_line;
+        let continues = starts_line && token.kind == TokenKind::Comma;
         new_line = false;
         let before = items.last().map(|item: &Item| item.kind);
         if continues && matches!(before, Some(TokenKind::Comma | TokenKind::Equals)) {
@@ -45,6 +48,7 @@ pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut 
             kind: token.kind,
             span: token.span(),
             continues,
+            starts_line,
         });
     }
 }
