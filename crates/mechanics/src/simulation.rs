@@ -267,7 +267,9 @@ impl Simulation {
         }
         self.system.history.clone_from(&dynamics.system.history);
         if ending == Ending::Completed {
-            self.take(&bdf, &dynamics, end, &mut instant)?;
+            if self.state.time != end {
+                self.take(&bdf, &dynamics, end, &mut instant)?;
+            }
             self.system.history.clone_from(&dynamics.system.history);
         }
         Ok(ending)
