@@ -1,84 +1,11 @@
-//! The arguments of a statement: keyword tables, and the values that a statement gives.
+//! Reads the arguments of a statement by its table of keywords.
 
 use crate::diagnostic::{Code, Diagnostics};
-use crate::expression::{self, Expression};
-use crate::names::{self, Match, Name};
+use crate::expression;
+use crate::keywords::{Argument, Keyword, Kind, Value};
+use crate::names::{self, Match};
 use crate::source::{Source, Span};
 use crate::syntax::{Item, TokenKind, join, number_value};
-
-/// What the value of an argument looks like, or why there is none.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Kind {
-    /// No value.
-    Flag,
-    /// A number, `D` for degrees allowed.
-    Real,
-    /// Between so many and so many numbers.
-    Reals(usize, usize),
-    /// A whole number.
-    Integer,
-    /// A positive whole number.
-    Id,
-    /// Positive whole numbers.
-    Ids,
-    /// One name.
-    Word,
-    /// Names with `:` or `,` between them, brackets round them allowed.
-    Words,
-    /// Everything up to `, NAME =` or a continued line that starts with the name of a flag.
-    Text,
-    /// Texts in quotes.
-    Strings,
-    /// A run-time expression.
-    Expression,
-    /// Anything; reported as without effect, with the reason.
-    Ignored(&'static str),
-    /// Anything; refused, with the reason.
-    Unsupported(&'static str),
-}
-
-/// One argument that a statement can have.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Keyword {
-    pub(crate) name: Name,
-    pub(crate) kind: Kind,
-}
-
-/// An argument whose abbreviations are those that fit no other.
-pub(crate) const fn keyword(full: &'static str, kind: Kind) -> Keyword {
-    abbreviated(full, full, kind)
-}
-
-/// An argument that `least` stands for even where other arguments start so too.
-pub(crate) const fn abbreviated(full: &'static str, least: &'static str, kind: Kind) -> Keyword {
-    Keyword {
-        name: Name { full, least },
-        kind,
-    }
-}
-
-/// The value that a statement gives to an argument.
-#[derive(Clone, Debug)]
-pub(crate) enum Value {
-    Flag,
-    Reals(Vec<(f64, Span)>),
-    Integers(Vec<(u32, Span)>),
-    Words(Vec<Span>),
-    Text(String),
-    Strings(Vec<String>),
-    Expression(Expression),
-}
-
-/// An argument of a statement.
-#[derive(Clone, Debug)]
-pub(crate) struct Argument {
-    pub(crate) keyword: &'static str,
-    /// The keyword.
-    pub(crate) span: Span,
-    /// The value, or the keyword of a flag.
-    pub(crate) value_span: Span,
-    pub(crate) value: Value,
-}
 
 /// Reads the arguments in `items`, from position `start` on. An argument that is wrong is
 /// reported and left out; its name is in the second list, as is that of an argument without
@@ -120,20 +47,20 @@ struct Refused;
 
 impl Parser<'_, '_> {
     fn kind(&self, at: usize) -> Option<TokenKind> {
-        self.items.get(at).map(|item| item.kind)
+        self.items.get(at).map(|item| item.kind())
     }
 
     fn slice(&self, at: usize) -> &str {
         self.items
             .get(at)
-            .map_or("", |item| self.source.slice(item.span))
+            .map_or("", |item| self.source.slice(item.span()))
     }
 
     fn span(&self, at: usize) -> Span {
         let last = self.items.len().saturating_sub(1);
         self.items
             .get(at.min(last))
-            .map_or(Span::default(), |item| item.span)
+            .map_or(Span::default(), |item| item.span())
     }
 
     fn find(&self, word: &str) -> Match {
@@ -200,7 +127,9 @@ impl Parser<'_, '_> {
                     .help("write more letters");
                 return self.skip_value();
             }
-            Match::None(near) => {
+            Match::None => {
+                let names = self.keywords.iter().map(|keyword| keyword.name.full);
+                let near = names::nearest(&word, names);
                 let found = self.source.excerpt(span);
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);
@@ -402,7 +331,7 @@ impl Parser<'_, '_> {
     fn expected(&mut self, name: &str, what: &str) -> Refused {
         let message = match self.items.get(self.at) {
             Some(item) => {
-                let found = self.source.excerpt(item.span);
+                let found = self.source.excerpt(item.span());
                 format!("{name} takes {what}, found `{found}`")
             }
             None => format!("{name} takes {what}, found nothing"),
@@ -494,7 +423,7 @@ impl Parser<'_, '_> {
         };
         let named = self.kind(at + 1) == Some(TokenKind::Word)
             && self.kind(at + 2) == Some(TokenKind::Equals);
-        comma.kind == TokenKind::Comma && (named || (comma.continues && self.argument_at(at + 1)))
+        comma.kind() == TokenKind::Comma && (named || (comma.continues && self.argument_at(at + 1)))
     }
 
     fn text(&mut self) -> Value {
@@ -509,7 +438,7 @@ impl Parser<'_, '_> {
         let text = if items.iter().any(|item| item.continues) {
             join(self.source, items)
         } else {
-            let span = items[0].span.to(items[items.len() - 1].span);
+            let span = items[0].span().to(items[items.len() - 1].span());
             self.source.slice(span).to_string()
         };
         let text = text.trim_end_matches('\\').trim_end();

@@ -1,8 +1,8 @@
 //! From text to a [`CommandFile`].
 
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::change;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Command, CommandFile, CommandKind, Simulate, SimulationKind};
 use crate::names::Name;
 use crate::reader::{RawHead, find};

@@ -13,6 +13,7 @@ mod checks;
 mod commands;
 mod diagnostic;
 mod expression;
+mod keywords;
 mod model;
 mod names;
 mod reader;

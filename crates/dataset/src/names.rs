@@ -16,8 +16,8 @@ pub(crate) enum Match {
     One(usize),
     /// Several names start with the word.
     Several(Vec<&'static str>),
-    /// No name starts with the word; the nearest one, if it is near.
-    None(Option<&'static str>),
+    /// No name starts with the word.
+    None,
 }
 
 /// Finds the name that `word` means: itself, else the only name that starts with it, else the
@@ -29,7 +29,7 @@ pub(crate) fn find(word: &str, names: impl Iterator<Item = Name> + Clone) -> Mat
     };
     let mut found = names.clone().enumerate().filter(|(_, name)| starts(name));
     let Some((first, name)) = found.next() else {
-        return Match::None(nearest(word, names.map(|name| name.full)));
+        return Match::None;
     };
     let others: Vec<(usize, Name)> = found.collect();
     if name.full.len() == word.len() || others.is_empty() {
@@ -58,9 +58,11 @@ pub(crate) fn nearest(
     if word.len() > LONGEST_NAME {
         return None;
     }
+    let most = |name: &str| 1.max(name.len().max(word.len()) / 3);
     names
+        .filter(|name| name.len().abs_diff(word.len()) <= most(name))
         .map(|name| (edits(word.as_bytes(), name.as_bytes()), name))
-        .filter(|(edits, name)| *edits <= 1.max(name.len().max(word.len()) / 3))
+        .filter(|(edits, name)| *edits <= most(name))
         .filter(|(edits, name)| *edits < name.len())
         // Of several, the one that starts like the word is meant.
         .min_by_key(|(edits, name)| (*edits, usize::MAX - shared_start(&word, name)))
@@ -123,8 +125,15 @@ mod tests {
         assert_eq!(find("resu"), Match::One(1));
         assert_eq!(find("RE"), Match::One(0));
         assert_eq!(find("RES"), Match::One(1));
-        assert_eq!(find("PRAT"), Match::None(Some("PART")));
-        assert_eq!(find("XYZZY"), Match::None(None));
+        assert_eq!(find("PRAT"), Match::None);
+    }
+
+    #[test]
+    fn the_nearest_name_is_not_far() {
+        let nearest = |word| nearest(word, NAMES.into_iter().map(|name| name.full));
+        assert_eq!(nearest("PRAT"), Some("PART"));
+        assert_eq!(nearest("RESULT"), Some("RESULTS"));
+        assert_eq!(nearest("XYZZY"), None);
     }
 
     #[test]

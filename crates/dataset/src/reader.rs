@@ -155,22 +155,22 @@ impl RawHead {
     /// Reads the head; `None` after a report if there is none.
     pub(crate) fn read(items: &[Item], diagnostics: &mut Diagnostics) -> Option<Self> {
         let first = items.first()?;
-        if first.kind != TokenKind::Word {
-            let found = diagnostics.source.excerpt(first.span);
+        if first.kind() != TokenKind::Word {
+            let found = diagnostics.source.excerpt(first.span());
             let message = format!("expected the name of a statement, found `{found}`");
-            diagnostics.error(Code::Syntax, first.span, message);
+            diagnostics.error(Code::Syntax, first.span(), message);
             return None;
         }
         let slash = items
             .get(1)
-            .is_some_and(|item| item.kind == TokenKind::Slash);
+            .is_some_and(|item| item.kind() == TokenKind::Slash);
         let number = items
             .get(2)
-            .filter(|item| slash && item.kind == TokenKind::Number);
+            .filter(|item| slash && item.kind() == TokenKind::Number);
         let rest = 1 + usize::from(slash) + usize::from(number.is_some());
         Some(Self {
-            name: first.span,
-            head: first.span.to(items[rest - 1].span),
+            name: first.span(),
+            head: first.span().to(items[rest - 1].span()),
             number: number.copied(),
             rest,
         })
@@ -189,17 +189,17 @@ impl RawHead {
         if !identified {
             let message = format!("{name} has no number");
             diagnostics
-                .error(Code::InvalidId, number.span, message)
+                .error(Code::InvalidId, number.span(), message)
                 .help(format!("write {name}/ and the arguments"));
             return 0;
         }
-        let text = diagnostics.source.slice(number.span);
+        let text = diagnostics.source.slice(number.span());
         if let Some(id) = text.parse().ok().filter(|id| *id > 0) {
             return id;
         }
-        let shown = diagnostics.source.excerpt(number.span);
+        let shown = diagnostics.source.excerpt(number.span());
         let message = format!("{name}/{shown}: numbers of elements are whole and positive");
-        diagnostics.error(Code::InvalidId, number.span, message);
+        diagnostics.error(Code::InvalidId, number.span(), message);
         0
     }
 }
@@ -212,7 +212,7 @@ pub(crate) fn find(
     diagnostics: &mut Diagnostics,
 ) -> Option<usize> {
     let word = diagnostics.source.slice(span);
-    match names::find(word, names) {
+    match names::find(word, names.clone()) {
         Match::One(index) => return Some(index),
         Match::Several(fits) => {
             let message = format!("`{word}` can mean {}", fits.join(" or "));
@@ -220,7 +220,8 @@ pub(crate) fn find(
                 .error(Code::AmbiguousName, span, message)
                 .help("write more letters");
         }
-        Match::None(near) => {
+        Match::None => {
+            let near = names::nearest(word, names.map(|name| name.full));
             let found = diagnostics.source.excerpt(span);
             let message = format!("no {what} is called {found}");
             let error = diagnostics.error(Code::UnknownStatement, span, message);

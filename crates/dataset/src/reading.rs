@@ -1,8 +1,9 @@
 //! One statement with its arguments, and typed access to them.
 
-use crate::arguments::{self, Argument, Keyword, Value};
+use crate::arguments;
 use crate::diagnostic::{Code, Diagnostics};
 use crate::expression::{Expr, Expression};
+use crate::keywords::{Argument, Keyword, Value};
 use crate::model::Header;
 use crate::names::{self, Match, Name};
 use crate::source::Span;
@@ -253,7 +254,7 @@ impl<'a, 's> Reading<'a, 's> {
         let near = match names::find(word, names) {
             Match::One(index) => return choices.get(index).map(|(_, value)| *value),
             Match::Several(_) => None,
-            Match::None(near) => near,
+            Match::None => names::nearest(word, choices.iter().map(|(name, _)| *name)),
         };
         let message = format!(
             "{keyword} cannot be {}",

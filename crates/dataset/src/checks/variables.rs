@@ -13,7 +13,10 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The circles of VARVAL, each by the positions of its variables.
+/// A longer circle is named by its first variables.
+const MOST_NAMES: usize = 8;
+
+/// The circles of VARVAL, each by the positions of its first variables.
 pub(crate) fn circles(dataset: &Dataset) -> Vec<Vec<usize>> {
     let mut circles = Vec::new();
     let uses: Vec<Vec<usize>> = dataset
@@ -23,11 +26,13 @@ pub(crate) fn circles(dataset: &Dataset) -> Vec<Vec<usize>> {
         .collect();
     // Depth-first search on an explicit stack: 0 = not seen, 1 = on the path, 2 = done.
     let mut state = vec![0_u8; uses.len()];
+    let mut place_on_path = vec![0; uses.len()];
     for start in 0..uses.len() {
         if state[start] != 0 {
             continue;
         }
         state[start] = 1;
+        place_on_path[start] = 0;
         let mut path = vec![(start, 0)];
         while let Some((node, next)) = path.last_mut() {
             let node = *node;
@@ -39,11 +44,11 @@ pub(crate) fn circles(dataset: &Dataset) -> Vec<Vec<usize>> {
             *next += 1;
             if state[used] == 0 {
                 state[used] = 1;
+                place_on_path[used] = path.len();
                 path.push((used, 0));
             } else if state[used] == 1 {
-                let from = path.iter().position(|(node, _)| *node == used);
-                let circle = &path[from.unwrap_or(0)..];
-                circles.push(circle.iter().map(|(node, _)| *node).collect());
+                let circle = path[place_on_path[used]..].iter().map(|(node, _)| *node);
+                circles.push(circle.take(MOST_NAMES + 1).collect());
             }
         }
     }
@@ -57,14 +62,12 @@ pub(crate) fn report(
     span: Span,
     diagnostics: &mut Diagnostics,
 ) {
-    /// A longer circle is named by its first variables.
-    const MOST: usize = 8;
     let mut names: Vec<String> = circle
         .iter()
-        .take(MOST)
+        .take(MOST_NAMES)
         .map(|index| format!("VARIABLE/{}", dataset.variables[*index].header.id))
         .collect();
-    if circle.len() > MOST {
+    if circle.len() > MOST_NAMES {
         names.push("...".to_string());
     }
     names.push(names[0].clone());

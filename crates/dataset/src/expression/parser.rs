@@ -50,7 +50,7 @@ pub(crate) fn parse(
         return Err(parser.unexpected(item, "an operator or the end of the expression"));
     }
     let span = match (parser.used.first(), parser.used.last()) {
-        (Some(first), Some(last)) => first.span.to(last.span),
+        (Some(first), Some(last)) => first.span().to(last.span()),
         _ => Span::default(),
     };
     let text = join(source, &parser.used);
@@ -75,10 +75,10 @@ impl Parser<'_> {
     /// The next item of the expression; `None` where it ends.
     fn peek(&mut self) -> Option<Item> {
         while let Some(item) = self.items.get(self.at).copied() {
-            if item.kind == TokenKind::Backslash {
+            if item.kind() == TokenKind::Backslash {
                 return None;
             }
-            if item.kind != TokenKind::Comma {
+            if item.kind() != TokenKind::Comma {
                 return Some(item);
             }
             if self.brackets > 0 && !item.continues {
@@ -98,13 +98,13 @@ impl Parser<'_> {
         let Some(word) = self.items.get(self.at + 1) else {
             return false;
         };
-        if word.kind != TokenKind::Word || !(self.is_argument)(self.source.slice(word.span)) {
+        if word.kind() != TokenKind::Word || !(self.is_argument)(self.source.slice(word.span())) {
             return false;
         }
-        let next = self.items.get(self.at + 2).map(|item| item.kind);
+        let next = self.items.get(self.at + 2).map(|item| item.kind());
         let complete = self.used.last().is_some_and(|item| {
             matches!(
-                item.kind,
+                item.kind(),
                 TokenKind::Number | TokenKind::Word | TokenKind::RightParenthesis
             )
         });
@@ -117,13 +117,13 @@ impl Parser<'_> {
     }
 
     fn take_if(&mut self, kind: TokenKind) -> Option<Item> {
-        let item = self.peek().filter(|item| item.kind == kind)?;
+        let item = self.peek().filter(|item| item.kind() == kind)?;
         self.take();
         Some(item)
     }
 
     fn slice(&self, item: Item) -> &str {
-        self.source.slice(item.span)
+        self.source.slice(item.span())
     }
 
     fn problem(&self, code: Code, span: Span, message: String) -> Problem {
@@ -136,9 +136,9 @@ impl Parser<'_> {
     }
 
     fn unexpected(&self, item: Item, expected: &str) -> Problem {
-        let found = self.source.excerpt(item.span);
+        let found = self.source.excerpt(item.span());
         let message = format!("expected {expected}, found `{found}`");
-        let mut problem = self.problem(Code::Expression, item.span, message);
+        let mut problem = self.problem(Code::Expression, item.span(), message);
         let after_break = self.at > 0 && self.items[self.at - 1].continues;
         if found == "^" {
             problem.help = Some("a power is written `**`".to_string());
@@ -158,9 +158,9 @@ impl Parser<'_> {
                 let before = self.at.min(self.items.len()).saturating_sub(1);
                 self.items
                     .get(before)
-                    .map_or(Span::default(), |item| item.span)
+                    .map_or(Span::default(), |item| item.span())
             },
-            |item| item.span,
+            |item| item.span(),
         );
         let message = format!("the expression ends here, {expected} is missing");
         self.problem(Code::Expression, span, message)
@@ -170,7 +170,7 @@ impl Parser<'_> {
         self.nesting += 1;
         if self.nesting > DEEPEST_NESTING {
             let message = format!("more than {DEEPEST_NESTING} levels of brackets and signs");
-            return Err(self.too_deep(item.span, message));
+            return Err(self.too_deep(item.span(), message));
         }
         Ok(())
     }
@@ -182,7 +182,7 @@ impl Parser<'_> {
     }
 
     fn binary(&self, item: Item, left: (Expr, usize), right: (Expr, usize)) -> Parsed {
-        let operator = match item.kind {
+        let operator = match item.kind() {
             TokenKind::Plus => BinaryOperator::Add,
             TokenKind::Minus => BinaryOperator::Subtract,
             TokenKind::Star => BinaryOperator::Multiply,
@@ -192,7 +192,7 @@ impl Parser<'_> {
         let depth = left.1.max(right.1) + 1;
         if depth > DEEPEST {
             let message = format!("an expression of more than {DEEPEST} operations in a row");
-            return Err(self.too_deep(item.span, message));
+            return Err(self.too_deep(item.span(), message));
         }
         let root = Expr::Binary {
             operator,
@@ -205,7 +205,7 @@ impl Parser<'_> {
     fn sum(&mut self) -> Parsed {
         let mut left = self.product()?;
         while let Some(item) = self.peek() {
-            if !matches!(item.kind, TokenKind::Plus | TokenKind::Minus) {
+            if !matches!(item.kind(), TokenKind::Plus | TokenKind::Minus) {
                 break;
             }
             self.take();
@@ -218,7 +218,7 @@ impl Parser<'_> {
     fn product(&mut self) -> Parsed {
         let mut left = self.sign()?;
         while let Some(item) = self.peek() {
-            if !matches!(item.kind, TokenKind::Star | TokenKind::Slash) {
+            if !matches!(item.kind(), TokenKind::Star | TokenKind::Slash) {
                 break;
             }
             self.take();
@@ -232,19 +232,19 @@ impl Parser<'_> {
         let Some(item) = self.peek() else {
             return Err(self.unexpected_end("an operand"));
         };
-        if !matches!(item.kind, TokenKind::Plus | TokenKind::Minus) {
+        if !matches!(item.kind(), TokenKind::Plus | TokenKind::Minus) {
             return self.power();
         }
         self.enter(item)?;
         self.take();
         let (operand, depth) = self.sign()?;
         self.nesting -= 1;
-        if item.kind == TokenKind::Plus {
+        if item.kind() == TokenKind::Plus {
             return Ok((operand, depth));
         }
         if depth >= DEEPEST {
             let message = format!("an expression of more than {DEEPEST} operations in a row");
-            return Err(self.too_deep(item.span, message));
+            return Err(self.too_deep(item.span(), message));
         }
         Ok((Expr::Negate(Box::new(operand)), depth + 1))
     }
@@ -264,17 +264,17 @@ impl Parser<'_> {
         let Some(item) = self.peek() else {
             return Err(self.unexpected_end("an operand"));
         };
-        match item.kind {
+        match item.kind() {
             TokenKind::Number => {
                 let text = self.slice(item);
                 let Some(value) = number_value(text) else {
-                    let message = format!("`{}` is not a number", self.source.excerpt(item.span));
-                    return Err(self.problem(Code::InvalidValue, item.span, message));
+                    let message = format!("`{}` is not a number", self.source.excerpt(item.span()));
+                    return Err(self.problem(Code::InvalidValue, item.span(), message));
                 };
                 if !value.is_finite() {
-                    let text = self.source.excerpt(item.span);
+                    let text = self.source.excerpt(item.span());
                     let message = format!("`{text}` is too large for a number");
-                    return Err(self.problem(Code::OutOfRange, item.span, message));
+                    return Err(self.problem(Code::OutOfRange, item.span(), message));
                 }
                 self.take();
                 Ok((Expr::Number(value), 1))
@@ -297,9 +297,9 @@ impl Parser<'_> {
     fn close(&mut self, open: Item) -> Result<Item, Problem> {
         let Some(item) = self.peek() else {
             let message = "this bracket is not closed".to_string();
-            return Err(self.problem(Code::Expression, open.span, message));
+            return Err(self.problem(Code::Expression, open.span(), message));
         };
-        if item.kind != TokenKind::RightParenthesis {
+        if item.kind() != TokenKind::RightParenthesis {
             return Err(self.unexpected(item, "an operator, `,` or `)`"));
         }
         self.brackets -= 1;
@@ -312,7 +312,7 @@ impl Parser<'_> {
         self.take();
         let open = self
             .peek()
-            .filter(|next| next.kind == TokenKind::LeftParenthesis);
+            .filter(|next| next.kind() == TokenKind::LeftParenthesis);
         if let Some(open) = open {
             return match Function::from_name(&name) {
                 Some(function) => self.call(item, function, open),
@@ -331,9 +331,9 @@ impl Parser<'_> {
     }
 
     fn unknown(&self, item: Item, name: &str) -> Problem {
-        let shown = self.source.excerpt(item.span);
+        let shown = self.source.excerpt(item.span());
         let message = format!("no function or constant is called {shown}");
-        let mut problem = self.problem(Code::UnknownFunction, item.span, message);
+        let mut problem = self.problem(Code::UnknownFunction, item.span(), message);
         let functions = Function::ALL.iter().map(|function| function.name());
         let constants = ["TIME", "MODE", "PI", "DTOR", "RTOD"].into_iter();
         problem.help = if let Some(function) = Function::from_name(name) {
@@ -351,14 +351,14 @@ impl Parser<'_> {
         let mut arguments = Vec::new();
         let mut deepest = 0;
         loop {
-            let next = self.peek().map(|item| item.kind);
+            let next = self.peek().map(|item| item.kind());
             if arguments.is_empty() && next == Some(TokenKind::RightParenthesis) {
                 break;
             }
             let first = self.used.len();
             let (argument, depth) = self.sum()?;
-            let place = self.used.get(first).map_or(open.span, |item| item.span);
-            let place = self.used.last().map_or(place, |item| place.to(item.span));
+            let place = self.used.get(first).map_or(open.span(), |item| item.span());
+            let place = self.used.last().map_or(place, |item| place.to(item.span()));
             self.check_argument(function, arguments.len(), &argument, place)?;
             arguments.push(argument);
             deepest = deepest.max(depth);
@@ -367,7 +367,7 @@ impl Parser<'_> {
                 _ => TokenKind::Comma,
             };
             match self.peek() {
-                Some(item) if item.kind == separator => self.take(),
+                Some(item) if item.kind() == separator => self.take(),
                 Some(item) if separator == TokenKind::Colon => {
                     let mut problem = self.unexpected(item, "`:` after the condition of IF");
                     problem.help = Some("write IF(condition: below 0, at 0, above 0)".to_string());
@@ -378,7 +378,7 @@ impl Parser<'_> {
         }
         let close = self.close(open)?;
         self.nesting -= 1;
-        let span = name.span.to(close.span);
+        let span = name.span().to(close.span());
         let (least, most) = function.argument_count();
         if !(least..=most).contains(&arguments.len()) {
             let count = match most {

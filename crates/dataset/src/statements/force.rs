@@ -1,8 +1,8 @@
 //! SFORCE and SPRINGDAMPER.
 
 use super::{Builder, Target, add};
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{ForceDirection, SingleForce, SpringDamper};
 use crate::reading::Reading;
 

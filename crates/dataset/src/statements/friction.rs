@@ -1,8 +1,8 @@
 //! FRICTION.
 
 use super::{Builder, Target, add};
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{
     Effect, Formulation, Friction, FrictionArguments, FrictionInputs, FrictionQuantity, Least,
     OverlapDelta, Yoke,

@@ -1,8 +1,8 @@
 //! JOINT, JPRIM and GCON.
 
 use super::{Builder, Target, add};
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{
     GeneralConstraint, InitialCondition, Joint, JointKind, JointPrimitive, PrimitiveKind,
 };

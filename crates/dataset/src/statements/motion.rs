@@ -1,8 +1,8 @@
 //! MOTION.
 
 use super::{Builder, Target, add};
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Motion, MotionDirection, MotionLevel, MotionTarget};
 use crate::reading::Reading;
 

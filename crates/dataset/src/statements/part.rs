@@ -1,9 +1,9 @@
 //! PART, `POINT_MASS` and MARKER.
 
 use super::{Builder, Reference, Target, add};
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::checks::inertia;
 use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
 use crate::reading::Reading;
 

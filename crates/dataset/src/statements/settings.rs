@@ -1,7 +1,7 @@
 //! INTEGRATOR, EQUILIBRIUM, KINEMATICS, IC and PREFERENCES.
 
 use super::Builder;
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{
     Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
     Kinematics, Preferences,

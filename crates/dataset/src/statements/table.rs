@@ -2,7 +2,7 @@
 
 use super::Builder;
 use super::{force, friction, joint, motion, part, request, settings, units, variable};
-use crate::arguments::Keyword;
+use crate::keywords::Keyword;
 use crate::names::Name;
 use crate::reading::Reading;
 

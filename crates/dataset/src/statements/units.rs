@@ -1,8 +1,8 @@
 //! UNITS and ACCGRAV.
 
 use super::Builder;
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
 use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{ForceUnit, LengthUnit, MassUnit, TimeUnit, Units};
 use crate::reading::Reading;
 

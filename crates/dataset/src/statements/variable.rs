@@ -1,7 +1,7 @@
 //! VARIABLE, PINPUT and POUTPUT.
 
 use super::{Builder, Reference, Target, add};
-use crate::arguments::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{PlantPort, Variable};
 use crate::reading::Reading;
 

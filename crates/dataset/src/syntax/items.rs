@@ -1,18 +1,27 @@
 //! The tokens of one statement that carry meaning, with continuation marks removed.
 
-use super::{StatementTokens, SyntaxTree, TokenKind};
+use super::{StatementTokens, SyntaxTree, Token, TokenKind};
 use crate::source::{Source, Span};
 
 /// A token that carries meaning.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Item {
-    pub(crate) kind: TokenKind,
-    pub(crate) span: Span,
+    token: Token,
     /// Whether it is the comma that starts a continued line: a separator between arguments, and
     /// nothing at all inside an expression.
     pub(crate) continues: bool,
     /// Whether it is the first item of a line of the statement but the first.
     pub(crate) starts_line: bool,
+}
+
+impl Item {
+    pub(crate) const fn kind(&self) -> TokenKind {
+        self.token.kind
+    }
+
+    pub(crate) const fn span(&self) -> Span {
+        self.token.span()
+    }
 }
 
 /// Fills `items` with the items of a statement.
@@ -28,7 +37,7 @@ pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut 
                 new_line = true;
                 if items
                     .last()
-                    .is_some_and(|item| item.kind == TokenKind::Ampersand)
+                    .is_some_and(|item| item.kind() == TokenKind::Ampersand)
                 {
                     items.pop();
                 }
@@ -40,13 +49,12 @@ pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut 
         let starts_line = new_line;
         let continues = starts_line && token.kind == TokenKind::Comma;
         new_line = false;
-        let before = items.last().map(|item: &Item| item.kind);
+        let before = items.last().map(|item: &Item| item.kind());
         if continues && matches!(before, Some(TokenKind::Comma | TokenKind::Equals)) {
             continue;
         }
         items.push(Item {
-            kind: token.kind,
-            span: token.span(),
+            token: *token,
             continues,
             starts_line,
         });
@@ -56,13 +64,13 @@ pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut 
 /// The text of items on one line: blanks as one blank, comments and marks left out.
 pub(crate) fn join(source: &Source, items: &[Item]) -> String {
     let mut text = String::new();
-    let mut end = items.first().map_or(0, |item| item.span.start);
+    let mut end = items.first().map_or(0, |item| item.span().start);
     for item in items {
-        if item.span.start > end {
+        if item.span().start > end {
             text.push(' ');
         }
-        text.push_str(source.slice(item.span));
-        end = item.span.end;
+        text.push_str(source.slice(item.span()));
+        end = item.span().end;
     }
     text
 }

@@ -56,6 +56,7 @@ pub enum TokenKind {
 pub struct Token {
     /// Its type.
     pub kind: TokenKind,
+    // 32 bits each: a source is shorter than 4 GB, and large files have many tokens.
     start: u32,
     end: u32,
 }

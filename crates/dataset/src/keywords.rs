@@ -1,0 +1,79 @@
+//! The keywords of statements, and the values that statements give them.
+
+use crate::expression::Expression;
+use crate::names::Name;
+use crate::source::Span;
+
+/// What the value of an argument looks like, or why there is none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    /// No value.
+    Flag,
+    /// A number, `D` for degrees allowed.
+    Real,
+    /// Between so many and so many numbers.
+    Reals(usize, usize),
+    /// A whole number.
+    Integer,
+    /// A positive whole number.
+    Id,
+    /// Positive whole numbers.
+    Ids,
+    /// One name.
+    Word,
+    /// Names with `:` or `,` between them, brackets round them allowed.
+    Words,
+    /// Everything up to `, NAME =` or a continued line that starts with the name of a flag.
+    Text,
+    /// Texts in quotes.
+    Strings,
+    /// A run-time expression.
+    Expression,
+    /// Anything; reported as without effect, with the reason.
+    Ignored(&'static str),
+    /// Anything; refused, with the reason.
+    Unsupported(&'static str),
+}
+
+/// One argument that a statement can have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Keyword {
+    pub(crate) name: Name,
+    pub(crate) kind: Kind,
+}
+
+/// An argument whose abbreviations are those that fit no other.
+pub(crate) const fn keyword(full: &'static str, kind: Kind) -> Keyword {
+    abbreviated(full, full, kind)
+}
+
+/// An argument that `least` stands for even where other arguments start so too.
+pub(crate) const fn abbreviated(full: &'static str, least: &'static str, kind: Kind) -> Keyword {
+    Keyword {
+        name: Name { full, least },
+        kind,
+    }
+}
+
+/// The value that a statement gives to an argument.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Flag,
+    Reals(Vec<(f64, Span)>),
+    Integers(Vec<(u32, Span)>),
+    Words(Vec<Span>),
+    Text(String),
+    Strings(Vec<String>),
+    Expression(Expression),
+}
+
+/// An argument of a statement.
+#[derive(Clone, Debug)]
+pub(crate) struct Argument {
+    pub(crate) keyword: &'static str,
+    /// The keyword.
+    pub(crate) span: Span,
+    /// The value, or the keyword of a flag.
+    pub(crate) value_span: Span,
+    pub(crate) value: Value,
+}
