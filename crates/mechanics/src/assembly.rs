@@ -117,7 +117,11 @@ impl std::fmt::Display for AssemblyError {
         };
         match self {
             Self::Inconsistent { unmet } => {
-                write!(f, "the joints cannot be assembled; not met: {}", list(unmet))
+                write!(
+                    f,
+                    "the joints cannot be assembled; not met: {}",
+                    list(unmet)
+                )
             }
             Self::Opposite { joint, axis } => write!(
                 f,
@@ -125,10 +129,17 @@ impl std::fmt::Display for AssemblyError {
                 ["x", "y", "z"][*axis]
             ),
             Self::Velocities { unmet } => {
-                write!(f, "the initial velocities contradict one another; not met: {}", list(unmet))
+                write!(
+                    f,
+                    "the initial velocities contradict one another; not met: {}",
+                    list(unmet)
+                )
             }
             Self::NotANumber { element } => {
-                write!(f, "{element} gives a value that is not a finite number at the start")
+                write!(
+                    f,
+                    "{element} gives a value that is not a finite number at the start"
+                )
             }
         }
     }
@@ -172,9 +183,12 @@ impl System {
             let on = usize::from(marker.body.is_none());
             largest[on] = largest[on].max(marker.offset.norm());
         }
-        let gyration = self.model.bodies.iter().filter(|b| b.mass > 0.0).map(|b| {
-            (b.inertia.trace() / (2.0 * b.mass)).sqrt()
-        });
+        let gyration = self
+            .model
+            .bodies
+            .iter()
+            .filter(|b| b.mass > 0.0)
+            .map(|b| (b.inertia.trace() / (2.0 * b.mass)).sqrt());
         let gyration = gyration.fold(0.0_f64, f64::max);
         if largest[0].max(gyration) > 0.0 {
             largest[0].max(gyration)
@@ -194,7 +208,9 @@ impl System {
         for (place, body) in bodies.iter().enumerate() {
             let centre = body.origin + body.orientation.matrix() * body.centre;
             positions[7 * place..7 * place + 3].copy_from_slice(centre.as_slice());
-            body.orientation.normalized().write(&mut positions[7 * place + 3..7 * place + 7]);
+            body.orientation
+                .normalized()
+                .write(&mut positions[7 * place + 3..7 * place + 7]);
             velocities[6 * place..6 * place + 3].copy_from_slice(body.velocity.as_slice());
             velocities[6 * place + 3..6 * place + 6]
                 .copy_from_slice(body.angular_velocity.as_slice());
@@ -222,7 +238,12 @@ impl System {
                 }
             }
         }
-        for motion in self.model.motions.iter().filter(|m| m.level != Level::Position) {
+        for motion in self
+            .model
+            .motions
+            .iter()
+            .filter(|m| m.level != Level::Position)
+        {
             let equation = match motion.freedom {
                 MotionFreedom::Along(axis) => Equation::Along(axis),
                 MotionFreedom::AboutZ => Equation::AboutZ,
@@ -284,12 +305,20 @@ impl System {
     /// Weights of the position components: large for those that must stay.
     fn position_weights(&self) -> Vec<f64> {
         let weights = self.model.bodies.iter().flat_map(|body| body.exact);
-        weights.map(|exact| if exact { EXACT_WEIGHT } else { 1.0 }).collect()
+        weights
+            .map(|exact| if exact { EXACT_WEIGHT } else { 1.0 })
+            .collect()
     }
 
     fn velocity_weights(&self) -> Vec<f64> {
-        let weights = self.model.bodies.iter().flat_map(|body| body.given_velocity);
-        weights.map(|given| if given { GIVEN_WEIGHT } else { 1.0 }).collect()
+        let weights = self
+            .model
+            .bodies
+            .iter()
+            .flat_map(|body| body.given_velocity);
+        weights
+            .map(|given| if given { GIVEN_WEIGHT } else { 1.0 })
+            .collect()
     }
 
     /// Rows in dimensionless form: displacements in units of the model's length.
@@ -300,7 +329,10 @@ impl System {
                 continue;
             }
             let scale = match constraint.form {
-                Form::Pair { equation: Equation::Along(_), .. } => 1.0 / length,
+                Form::Pair {
+                    equation: Equation::Along(_),
+                    ..
+                } => 1.0 / length,
                 Form::Pair { .. } => 1.0,
                 // Unknown dimension: scaled by the gradient where it is known.
                 Form::Function => gradient_scale(&evaluated.jacobian, length),
@@ -309,7 +341,9 @@ impl System {
             rows.push(Row {
                 error: scale * evaluated.error,
                 rate: scale * evaluated.rate,
-                blocks: blocks.map(|(&body, g)| (body, scaled(g, scale, length))).collect(),
+                blocks: blocks
+                    .map(|(&body, g)| (body, scaled(g, scale, length)))
+                    .collect(),
                 in_position: constraint.level == Level::Position,
                 in_velocity: constraint.level != Level::Acceleration,
                 label: self.owner_label(constraint.owner).clone(),
@@ -366,7 +400,9 @@ impl System {
                 }
             }
             if rows.iter().any(|row| !row.error.is_finite()) {
-                return Err(AssemblyError::NotANumber { element: self.find_not_a_number() });
+                return Err(AssemblyError::NotANumber {
+                    element: self.find_not_a_number(),
+                });
             }
             let error = rows.iter().fold(0.0_f64, |m, row| m.max(row.error.abs()));
             stalled = if error < 0.5 * last { 0 } else { stalled + 1 };
@@ -409,14 +445,20 @@ impl System {
             }
         }
         let mut wanted = state.velocities().to_vec();
-        wanted.iter_mut().enumerate().filter(|(k, _)| k % 6 < 3).for_each(|(_, v)| *v /= length);
+        wanted
+            .iter_mut()
+            .enumerate()
+            .filter(|(k, _)| k % 6 < 3)
+            .for_each(|(_, v)| *v /= length);
         let right: Vec<f64> = rows.iter().map(|row| row.rate).collect();
         let mut least = Least::new(n, rows.len());
         let weights = self.velocity_weights();
         let mut velocities = least.solve(&rows, &weights, &wanted, &right);
         // A second pass removes what the regularisation left of the first.
-        let missing: Vec<f64> =
-            rows.iter().map(|row| row.rate - along(row, &velocities)).collect();
+        let missing: Vec<f64> = rows
+            .iter()
+            .map(|row| row.rate - along(row, &velocities))
+            .collect();
         let correction = least.solve(&rows, &weights, &vec![0.0; n], &missing);
         for (v, c) in velocities.iter_mut().zip(correction) {
             *v += c;
@@ -424,10 +466,18 @@ impl System {
         let size = velocities.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let size = rows.iter().fold(size, |m, row| m.max(row.rate.abs()));
         let unmet = unmet(&rows, |row| row.rate - along(row, &velocities));
-        if unmet.first().is_some_and(|(_, _, error)| !(*error <= CONSISTENT * size.max(1e-12))) {
+        if unmet
+            .first()
+            .is_some_and(|(_, _, error)| !(*error <= CONSISTENT * size.max(1e-12)))
+        {
             return Err(AssemblyError::Velocities { unmet });
         }
-        for (k, (u, v)) in state.velocities_mut().iter_mut().zip(&velocities).enumerate() {
+        for (k, (u, v)) in state
+            .velocities_mut()
+            .iter_mut()
+            .zip(&velocities)
+            .enumerate()
+        {
             *u = if k % 6 < 3 { v * length } else { *v };
         }
         self.evaluate(state, false);
@@ -454,7 +504,10 @@ impl System {
         order.sort_unstable();
         let rows = self.assembly_rows(&[], length);
         let n = self.velocity_count();
-        let full: Vec<Vec<f64>> = order.iter().map(|&(_, place)| expand(&rows[place], n)).collect();
+        let full: Vec<Vec<f64>> = order
+            .iter()
+            .map(|&(_, place)| expand(&rows[place], n))
+            .collect();
         let kept = independent_rows(&full, RANK_TOLERANCE);
         let mut active = vec![false; self.constraints.len()];
         for (&(_, place), kept) in order.iter().zip(kept) {
@@ -494,7 +547,10 @@ impl System {
             }
         }
         let frictions = self.model.frictions.iter().enumerate();
-        frictions.filter(|(_, friction)| touched[friction.joint]).map(|(place, _)| place).collect()
+        frictions
+            .filter(|(_, friction)| touched[friction.joint])
+            .map(|(place, _)| place)
+            .collect()
     }
 
     /// The equations of a joint also hold with opposite axes; that is not what the joint means.
@@ -503,7 +559,10 @@ impl System {
             let (i, j) = (self.marker(joint.i), self.marker(joint.j));
             for &axis in codirected_axes(joint.kind) {
                 if i.axis(axis).dot(&j.axis(axis)) < 0.0 {
-                    return Err(AssemblyError::Opposite { joint: joint.label.clone(), axis });
+                    return Err(AssemblyError::Opposite {
+                        joint: joint.label.clone(),
+                        axis,
+                    });
                 }
             }
         }
@@ -519,7 +578,11 @@ impl System {
                 crate::rotation::log(&(state.orientation(place).matrix() * before.transpose()))
                     .norm();
             if distance > 1e-7 * length || angle > 1e-7 {
-                moved.push(Moved { body: body.label.clone(), distance, angle });
+                moved.push(Moved {
+                    body: body.label.clone(),
+                    distance,
+                    angle,
+                });
             }
         }
         moved
@@ -536,7 +599,11 @@ impl System {
             let angular = (part(state, 3) - part(given, 3)).norm();
             let given = body.given_velocity.contains(&true);
             if given && (linear > 1e-7 * length || angular > 1e-7) {
-                changes.push(VelocityChange { body: body.label.clone(), linear, angular });
+                changes.push(VelocityChange {
+                    body: body.label.clone(),
+                    linear,
+                    angular,
+                });
             }
         }
         changes
@@ -550,7 +617,11 @@ fn scaled(g: &[f64; 6], scale: f64, length: f64) -> [f64; 6] {
 fn gradient_scale(jacobian: &[[f64; 6]], length: f64) -> f64 {
     let size = |g: &[f64; 6]| scaled(g, 1.0, length).iter().map(|v| v * v).sum::<f64>();
     let norm = jacobian.iter().map(size).sum::<f64>().sqrt();
-    if norm > 0.0 && norm.is_finite() { 1.0 / norm } else { 1.0 }
+    if norm > 0.0 && norm.is_finite() {
+        1.0 / norm
+    } else {
+        1.0
+    }
 }
 
 fn expand(row: &Row, n: usize) -> Vec<f64> {
@@ -565,7 +636,10 @@ fn expand(row: &Row, n: usize) -> Vec<f64> {
 
 fn along(row: &Row, velocities: &[f64]) -> f64 {
     let products = row.blocks.iter().flat_map(|(body, block)| {
-        block.iter().zip(&velocities[6 * body..]).map(|(g, v)| g * v)
+        block
+            .iter()
+            .zip(&velocities[6 * body..])
+            .map(|(g, v)| g * v)
     });
     products.sum()
 }
@@ -590,7 +664,12 @@ struct Least {
 
 impl Least {
     fn new(n: usize, rows: usize) -> Self {
-        Self { n, rows, matrix: Matrix::new(n + rows), factors: SparseLu::new() }
+        Self {
+            n,
+            rows,
+            matrix: Matrix::new(n + rows),
+            factors: SparseLu::new(),
+        }
     }
 
     fn factor<'a>(&mut self, rows: impl Iterator<Item = &'a Row>, weights: &[f64]) {

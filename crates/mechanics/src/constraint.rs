@@ -78,13 +78,20 @@ impl Evaluated {
             .iter()
             .zip(&self.jacobian)
             .map(|(&body, row)| {
-                row.iter().zip(&velocities[6 * body..]).map(|(g, u)| g * u).sum::<f64>()
+                row.iter()
+                    .zip(&velocities[6 * body..])
+                    .map(|(g, u)| g * u)
+                    .sum::<f64>()
             })
             .sum()
     }
 }
 
-const ORIENTATION: [Equation; 3] = [Equation::Axes(2, 0), Equation::Axes(2, 1), Equation::Axes(0, 1)];
+const ORIENTATION: [Equation; 3] = [
+    Equation::Axes(2, 0),
+    Equation::Axes(2, 1),
+    Equation::Axes(0, 1),
+];
 const POINT: [Equation; 3] = [Equation::Along(0), Equation::Along(1), Equation::Along(2)];
 
 /// The equations of a joint: how many degrees of freedom it removes, and which.
@@ -134,11 +141,23 @@ pub(crate) fn list(model: &Model) -> Vec<Constraint> {
     let mut pair = |owner, level, equation, i, j| {
         let bodies = [body_of(i), body_of(j)].into_iter().flatten().collect();
         let form = Form::Pair { equation, i, j };
-        constraints.push(Constraint { owner, form, level, row: None, bodies });
+        constraints.push(Constraint {
+            owner,
+            form,
+            level,
+            row: None,
+            bodies,
+        });
     };
     for (place, joint) in model.joints.iter().enumerate() {
         for equation in equations_of(joint.kind) {
-            pair(Owner::Joint(place), Level::Position, equation, joint.i, joint.j);
+            pair(
+                Owner::Joint(place),
+                Level::Position,
+                equation,
+                joint.i,
+                joint.j,
+            );
         }
     }
     for (place, motion) in model.motions.iter().enumerate() {
@@ -146,7 +165,13 @@ pub(crate) fn list(model: &Model) -> Vec<Constraint> {
             MotionFreedom::Along(axis) => Equation::Along(axis),
             MotionFreedom::AboutZ => Equation::AboutZ,
         };
-        pair(Owner::Motion(place), motion.level, equation, motion.i, motion.j);
+        pair(
+            Owner::Motion(place),
+            motion.level,
+            equation,
+            motion.i,
+            motion.j,
+        );
     }
     for (place, constraint) in model.constraints.iter().enumerate() {
         let mut bodies: Vec<usize> = constraint
@@ -162,7 +187,13 @@ pub(crate) fn list(model: &Model) -> Vec<Constraint> {
         bodies.sort_unstable();
         bodies.dedup();
         let (owner, form) = (Owner::General(place), Form::Function);
-        constraints.push(Constraint { owner, form, level: Level::Position, row: None, bodies });
+        constraints.push(Constraint {
+            owner,
+            form,
+            level: Level::Position,
+            row: None,
+            bodies,
+        });
     }
     constraints
 }
@@ -171,9 +202,18 @@ pub(crate) fn list(model: &Model) -> Vec<Constraint> {
 pub(crate) fn name(form: Form) -> String {
     let axis = |k: usize| ["X", "Y", "Z"][k];
     match form {
-        Form::Pair { equation: Equation::Along(k), .. } => format!("Rij.{}j", axis(k)),
-        Form::Pair { equation: Equation::Axes(k, l), .. } => format!("{}i.{}j", axis(k), axis(l)),
-        Form::Pair { equation: Equation::AboutZ, .. } => "angle about Zj".to_owned(),
+        Form::Pair {
+            equation: Equation::Along(k),
+            ..
+        } => format!("Rij.{}j", axis(k)),
+        Form::Pair {
+            equation: Equation::Axes(k, l),
+            ..
+        } => format!("{}i.{}j", axis(k), axis(l)),
+        Form::Pair {
+            equation: Equation::AboutZ,
+            ..
+        } => "angle about Zj".to_owned(),
         Form::Function => "function".to_owned(),
     }
 }

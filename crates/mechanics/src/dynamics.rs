@@ -14,6 +14,10 @@
 //! `M⁻¹Gᵀ` (their `Gᵀμ`, weighted by the mass). Because it is that small, velocities and
 //! multipliers are solved first and positions after, with one factorisation.
 //!
+//! Where constraints depend on others for an instant (a parallelogram that is stretched), SI2 has
+//! nearly singular velocity equations while I3 passes; a step of SI2 that fails is solved as I3, and
+//! so are the next few.
+//!
 //! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
@@ -45,6 +49,9 @@ const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
 const SLOW_RATE: f64 = 0.1;
 
+/// Steps that are solved as I3 once SI2 has failed, so that a nearly singular position is behind.
+const INDEX3_STEPS: usize = 10;
+
 /// Counts of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
@@ -52,6 +59,8 @@ pub struct Work {
     pub residuals: usize,
     /// Newton matrices built and factored.
     pub factorisations: usize,
+    /// Steps of SI2 that were solved as I3, near a position where constraints depend on others.
+    pub index3_steps: usize,
 }
 
 /// Scales that make the error test independent of the choice of units.
@@ -68,6 +77,10 @@ pub(crate) struct Scales {
 pub(crate) struct Dynamics {
     pub(crate) system: System,
     pub(crate) formulation: Formulation,
+    /// How constraints enter the present step.
+    present: Formulation,
+    /// Steps of SI2 that are still to be solved as I3.
+    index3_left: usize,
     /// Error tolerance per step, relative to the scales.
     pub(crate) tolerance: f64,
     pub(crate) newton_iterations: usize,
@@ -100,13 +113,18 @@ impl Dynamics {
         let bodies = system.model.bodies.len();
         Self {
             formulation,
+            present: formulation,
+            index3_left: 0,
             tolerance: 1e-6,
             newton_iterations: 4,
             scales,
             work: Work::default(),
             multipliers: vec![0.0; system.row_count()],
             previous: system.history.frictions.clone(),
-            state: State { time: 0.0, values: vec![0.0; (POSITIONS + VELOCITIES) * bodies] },
+            state: State {
+                time: 0.0,
+                values: vec![0.0; (POSITIONS + VELOCITIES) * bodies],
+            },
             shift: vec![0.0; n],
             impulses: vec![0.0; system.row_count()],
             trial: vec![0.0; system.row_count()],
@@ -126,7 +144,11 @@ impl Dynamics {
     /// Raises the rate scale to that of the present velocities.
     pub(crate) fn observe_rates(&mut self, velocities: &[f64]) {
         for (k, u) in velocities.iter().enumerate() {
-            let rate = if k % 6 < 3 { u.abs() / self.scales.length } else { u.abs() };
+            let rate = if k % 6 < 3 {
+                u.abs() / self.scales.length
+            } else {
+                u.abs()
+            };
             self.scales.rate = self.scales.rate.max(rate);
         }
     }
@@ -143,15 +165,18 @@ impl Dynamics {
                     + self.shift[first + k];
             }
             let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
-            let omega =
-                Vector3::from_column_slice(&self.state.velocities()[first + 3..first + 6]);
+            let omega = Vector3::from_column_slice(&self.state.velocities()[first + 3..first + 6]);
             let half = 0.5 * step.gamma * omega;
             let norm = past.norm_squared();
             let scalar = norm - half.norm_squared();
             if !(scalar > 0.25 * norm) {
                 return Err(Failure::TurnsTooFar { body });
             }
-            let turned = Quaternion { w: scalar.sqrt(), v: half }.times(&past);
+            let turned = Quaternion {
+                w: scalar.sqrt(),
+                v: half,
+            }
+            .times(&past);
             let shift = Vector3::from_column_slice(&self.shift[first + 3..first + 6]);
             let q = Quaternion::exp(&shift).times(&turned).normalized();
             q.write(&mut self.state.values[place + 3..place + POSITIONS]);
@@ -198,7 +223,7 @@ impl Dynamics {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
             let of = |u: &[f64]| evaluated.rate_of(&constraint.bodies, u);
-            self.right[n + row] = match (constraint.level, self.formulation) {
+            self.right[n + row] = match (constraint.level, self.present) {
                 (Level::Position, Formulation::I3) => -evaluated.error / gamma,
                 (Level::Position, Formulation::Si2) | (Level::Velocity, _) => {
                     evaluated.rate - of(self.state.velocities())
@@ -209,7 +234,9 @@ impl Dynamics {
         if self.right.iter().all(|r| r.is_finite()) {
             Ok(())
         } else {
-            Err(Failure::NotANumber { element: self.system.find_not_a_number() })
+            Err(Failure::NotANumber {
+                element: self.system.find_not_a_number(),
+            })
         }
     }
 
@@ -221,8 +248,11 @@ impl Dynamics {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
             let moved = gamma * evaluated.rate_of(&constraint.bodies, &self.right[..n]);
-            self.position_right[n + row] =
-                if constraint.level == Level::Position { -evaluated.error - moved } else { 0.0 };
+            self.position_right[n + row] = if constraint.level == Level::Position {
+                -evaluated.error - moved
+            } else {
+                0.0
+            };
         }
         self.factors.solve(&mut self.position_right);
     }
@@ -235,7 +265,7 @@ impl Dynamics {
         for k in 0..n {
             let unit = if k % 6 < 3 { length } else { 1.0 };
             norm = norm.max((gamma * self.right[k]).abs() / unit);
-            if self.formulation == Formulation::Si2 {
+            if self.present == Formulation::Si2 {
                 norm = norm.max(self.right[k].abs() / (unit * rate));
                 norm = norm.max(self.position_right[k].abs() / unit);
             }
@@ -246,7 +276,7 @@ impl Dynamics {
     fn newton(&mut self, step: &bdf::Step<'_>, mut renew: bool) -> Result<(), (Failure, bool)> {
         let gamma = step.gamma;
         let n = self.system.velocity_count();
-        let rows = match self.formulation {
+        let rows = match self.present {
             Formulation::I3 => Rows::Position,
             Formulation::Si2 => Rows::Velocity,
         };
@@ -259,7 +289,8 @@ impl Dynamics {
             if renew {
                 self.factored = None;
                 self.work.factorisations += 1;
-                self.system.assemble(rows, gamma, &self.change, &self.trial, &mut self.matrix);
+                self.system
+                    .assemble(rows, gamma, &self.change, &self.trial, &mut self.matrix);
                 let factored = self.factors.factor(&self.matrix);
                 factored.map_err(|singular| (Failure::Singular(singular), true))?;
                 self.factored = Some(gamma);
@@ -269,14 +300,15 @@ impl Dynamics {
             for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
                 *impulse += change;
             }
-            match self.formulation {
+            match self.present {
                 Formulation::Si2 => {
                     self.correct_positions(gamma);
                     for k in 0..n {
                         self.state.velocities_mut()[k] += self.right[k];
                         self.shift[k] += self.position_right[k];
                     }
-                    self.positions_from_velocities(step).map_err(|failure| (failure, fresh))?;
+                    self.positions_from_velocities(step)
+                        .map_err(|failure| (failure, fresh))?;
                 }
                 Formulation::I3 => {
                     for k in 0..n {
@@ -290,18 +322,28 @@ impl Dynamics {
             }
             let norm = self.correction_norm(gamma);
             let size = |k: &usize| self.right[*k].abs();
-            worst = (0..n).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+            worst = (0..n)
+                .max_by(|a, b| size(a).total_cmp(&size(b)))
+                .unwrap_or(0);
             if !norm.is_finite() {
                 break;
             }
             if iteration > 0 {
                 self.rate = norm / f64::max(last, 1e-300);
             }
-            let rate = if iteration == 0 { self.rate.clamp(0.1, 0.9) } else { self.rate };
+            let rate = if iteration == 0 {
+                self.rate.clamp(0.1, 0.9)
+            } else {
+                self.rate
+            };
             if iteration > 0 && rate >= 1.0 && norm > NEWTON_TOLERANCE {
                 break;
             }
-            let left = if rate < 1.0 { norm * rate / (1.0 - rate) } else { norm };
+            let left = if rate < 1.0 {
+                norm * rate / (1.0 - rate)
+            } else {
+                norm
+            };
             if left <= NEWTON_TOLERANCE || norm == 0.0 {
                 return Ok(());
             }
@@ -323,7 +365,7 @@ impl Dynamics {
             let place = POSITIONS * body + 3;
             q.write(&mut self.state.values[place..place + 4]);
         }
-        match self.formulation {
+        match self.present {
             Formulation::Si2 => self.positions_from_velocities(step),
             Formulation::I3 => {
                 self.velocities_from_positions(step);
@@ -341,15 +383,33 @@ impl bdf::System for Dynamics {
             .factored
             .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
         let mut renew = stale || self.rate > SLOW_RATE;
+        self.present = if self.index3_left > 0 { Formulation::I3 } else { self.formulation };
         loop {
-            self.load(step, y)?;
-            match self.newton(step, renew) {
+            let solved = self.load(step, y).map_err(|failure| (failure, true));
+            match solved.and_then(|()| self.newton(step, renew)) {
                 Ok(()) => break,
+                Err((_, false)) => renew = true,
+                // Where the mechanism passes a position at which constraints depend on others,
+                // velocity constraints are nearly singular, positions alone are not.
+                Err((Failure::NotConverged { .. } | Failure::Singular(_), true))
+                    if self.present == Formulation::Si2 =>
+                {
+                    self.present = Formulation::I3;
+                    self.index3_left = INDEX3_STEPS;
+                }
                 Err((failure, true)) => {
                     self.rate = 1.0;
+                    self.factored = None;
                     return Err(failure);
                 }
-                Err((_, false)) => renew = true,
+            }
+        }
+        if self.present != self.formulation {
+            self.work.index3_steps += 1;
+            self.index3_left -= 1;
+            if self.index3_left == 0 {
+                // The matrix does not fit the next step.
+                self.factored = None;
             }
         }
         for (multiplier, impulse) in self.multipliers.iter_mut().zip(&self.impulses) {
@@ -372,9 +432,13 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        if self.formulation == Formulation::Si2 {
+        if self.present == Formulation::Si2 {
             for (k, d) in difference[POSITIONS * bodies..].iter().enumerate() {
-                let unit = if k % VELOCITIES < 3 { length * rate } else { rate };
+                let unit = if k % VELOCITIES < 3 {
+                    length * rate
+                } else {
+                    rate
+                };
                 norm = norm.max(d.abs() / unit);
             }
         }

@@ -97,8 +97,7 @@ fn along(i: &MarkerFrame, j: &MarkerFrame, k: usize) -> Row {
     let c = j.arm + d;
     let d_rate = i.velocity - j.velocity;
     let a_rate = j.omega.cross(&a);
-    let d_bias =
-        i.omega.cross(&i.omega.cross(&i.arm)) - j.omega.cross(&j.omega.cross(&j.arm));
+    let d_bias = i.omega.cross(&i.omega.cross(&i.arm)) - j.omega.cross(&j.omega.cross(&j.arm));
     Row {
         value: d.dot(&a),
         jacobian: parts(&a, &i.arm.cross(&a), &-a, &-c.cross(&a)),
@@ -160,7 +159,11 @@ fn about_z(i: &MarkerFrame, j: &MarkerFrame) -> Row {
     let (s_rate, c_rate) = (sine.jacobian.dot(&u), cosine.jacobian.dot(&u));
     let bias = (c * sine.bias - s * cosine.bias) / r2
         - 2.0 * (s * s_rate + c * c_rate) * (c * s_rate - s * c_rate) / (r2 * r2);
-    Row { value: s.atan2(c), jacobian, bias }
+    Row {
+        value: s.atan2(c),
+        jacobian,
+        bias,
+    }
 }
 
 fn about_z_stiffness(i: &MarkerFrame, j: &MarkerFrame) -> LocalMatrix {
@@ -236,7 +239,10 @@ mod tests {
                 Local::repeat(equation.evaluate(&i, &j).value)
             };
             let jacobian = differences(value).row(0).transpose();
-            assert!((jacobian - equation.evaluate(&i, &j).jacobian).norm() < 1e-8, "{equation:?}");
+            assert!(
+                (jacobian - equation.evaluate(&i, &j).jacobian).norm() < 1e-8,
+                "{equation:?}"
+            );
             let gradient = |x: &Local| {
                 let [i, j] = frames(x);
                 equation.evaluate(&i, &j).jacobian
@@ -255,7 +261,10 @@ mod tests {
             // Rate of G u along the motion with u held: ∂(G u)/∂x · u.
             let bias = (equation.stiffness(&i, &j).transpose() * u).dot(&u);
             let row = equation.evaluate(&i, &j);
-            assert!((row.bias - bias).abs() < 1e-12 * (1.0 + bias.abs()), "{equation:?}");
+            assert!(
+                (row.bias - bias).abs() < 1e-12 * (1.0 + bias.abs()),
+                "{equation:?}"
+            );
         }
     }
 }

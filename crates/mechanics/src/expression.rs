@@ -128,7 +128,9 @@ impl Program {
     /// A program that is a constant.
     #[must_use]
     pub fn constant(value: f64) -> Self {
-        Self { operations: vec![Operation::Constant(value)] }
+        Self {
+            operations: vec![Operation::Constant(value)],
+        }
     }
 
     /// Appends an operation; registers it reads must exist.
@@ -162,10 +164,12 @@ impl Program {
 
     /// Everything the program reads, with repetitions.
     pub fn inputs(&self) -> impl Iterator<Item = Input> + '_ {
-        self.operations.iter().filter_map(|operation| match operation {
-            Operation::Input(input) => Some(*input),
-            _ => None,
-        })
+        self.operations
+            .iter()
+            .filter_map(|operation| match operation {
+                Operation::Input(input) => Some(*input),
+                _ => None,
+            })
     }
 
     /// Value, with the inputs that `read` gives; `registers` must hold [`Program::len`] numbers.
@@ -173,11 +177,7 @@ impl Program {
         self.run(registers, read)
     }
 
-    pub(crate) fn run<T: Scalar>(
-        &self,
-        registers: &mut [T],
-        read: impl Fn(Input) -> T,
-    ) -> T {
+    pub(crate) fn run<T: Scalar>(&self, registers: &mut [T], read: impl Fn(Input) -> T) -> T {
         for (place, operation) in self.operations.iter().enumerate() {
             let at = |r: Register| registers[r as usize];
             registers[place] = match *operation {
@@ -285,7 +285,9 @@ fn unary(function: Unary, x: f64) -> (f64, f64, f64) {
             let t = x.tanh();
             (t, 1.0 - t * t, -2.0 * t * (1.0 - t * t))
         }
-        Unary::CubicStep if inside => (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x), 6.0 - 12.0 * x),
+        Unary::CubicStep if inside => {
+            (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x), 6.0 - 12.0 * x)
+        }
         Unary::QuinticStep if inside => {
             let r = x * (1.0 - x);
             (
@@ -312,7 +314,11 @@ fn whole(exponent: f64) -> bool {
 }
 
 fn power(x: f64, y: f64) -> f64 {
-    if whole(y) { x.powi(y as i32) } else { x.powf(y) }
+    if whole(y) {
+        x.powi(y as i32)
+    } else {
+        x.powf(y)
+    }
 }
 
 /// `∂(x^y)/∂x`, where a zero factor wins over an infinite one.
@@ -349,7 +355,11 @@ fn binary<T: Scalar>(function: Binary, a: T, b: T) -> T {
             if x >= y || x.is_nan() { a } else { b }
         }
         Binary::Min => {
-            if x <= y || x.is_nan() { a } else { b }
+            if x <= y || x.is_nan() {
+                a
+            } else {
+                b
+            }
         }
     }
 }
@@ -366,15 +376,27 @@ fn binary_slopes(function: Binary, x: f64, y: f64, value: f64) -> (f64, f64) {
         }
         Binary::Atan2 => {
             let r2 = x * x + y * y;
-            if r2 == 0.0 { (0.0, 0.0) } else { (y / r2, -x / r2) }
+            if r2 == 0.0 {
+                (0.0, 0.0)
+            } else {
+                (y / r2, -x / r2)
+            }
         }
         Binary::Modulo => (1.0, -(x / y).trunc()),
         Binary::Sign => (if (x < 0.0) == (y < 0.0) { 1.0 } else { -1.0 }, 0.0),
         Binary::Max => {
-            if x >= y || x.is_nan() { (1.0, 0.0) } else { (0.0, 1.0) }
+            if x >= y || x.is_nan() {
+                (1.0, 0.0)
+            } else {
+                (0.0, 1.0)
+            }
         }
         Binary::Min => {
-            if x <= y || x.is_nan() { (1.0, 0.0) } else { (0.0, 1.0) }
+            if x <= y || x.is_nan() {
+                (1.0, 0.0)
+            } else {
+                (0.0, 1.0)
+            }
         }
     }
 }
@@ -415,15 +437,23 @@ mod tests {
             let ahead = unary(function, x + h);
             let behind = unary(function, x - h);
             // Truncation h² = 1e-10 times the next derivatives, at most about 20 here.
-            assert!((slope - (ahead.0 - behind.0) / (2.0 * h)).abs() < 1e-8, "{function:?}");
-            assert!((curvature - (ahead.1 - behind.1) / (2.0 * h)).abs() < 1e-7, "{function:?}");
+            assert!(
+                (slope - (ahead.0 - behind.0) / (2.0 * h)).abs() < 1e-8,
+                "{function:?}"
+            );
+            assert!(
+                (curvature - (ahead.1 - behind.1) / (2.0 * h)).abs() < 1e-7,
+                "{function:?}"
+            );
         }
     }
 
     #[test]
     fn gradients_and_jets_of_every_binary_match_differences() {
         use Binary::*;
-        for function in [Add, Subtract, Multiply, Divide, Power, Atan2, Modulo, Sign, Max, Min] {
+        for function in [
+            Add, Subtract, Multiply, Divide, Power, Atan2, Modulo, Sign, Max, Min,
+        ] {
             for (x, y) in [(1.3, 0.7), (0.4, -1.7), (2.5, 3.0)] {
                 let mut program = Program::default();
                 let a = program.push(Operation::Input(Input::Measure(0)));
@@ -445,14 +475,24 @@ mod tests {
                 program.gradient(&registers, &mut [0.0; 3], |input, slope| {
                     slopes[usize::from(input == Input::Measure(1))] += slope;
                 });
-                assert!((slopes[0] - by_x).abs() < 1e-7, "{function:?} {slopes:?} {by_x}");
-                assert!((slopes[1] - by_y).abs() < 1e-7, "{function:?} {slopes:?} {by_y}");
+                assert!(
+                    (slopes[0] - by_x).abs() < 1e-7,
+                    "{function:?} {slopes:?} {by_x}"
+                );
+                assert!(
+                    (slopes[1] - by_y).abs() < 1e-7,
+                    "{function:?} {slopes:?} {by_y}"
+                );
 
                 // Along x = x0 + 2t − t², y = y0 + t for a constant exponent, with t² otherwise.
                 let along = |t: f64| {
                     let bend = if function == Power { 0.0 } else { 1.0 };
                     (
-                        Jet { value: x + 2.0 * t - t * t, rate: 2.0 - 2.0 * t, acceleration: -2.0 },
+                        Jet {
+                            value: x + 2.0 * t - t * t,
+                            rate: 2.0 - 2.0 * t,
+                            acceleration: -2.0,
+                        },
                         Jet {
                             value: y + bend * (t + t * t),
                             rate: bend * (1.0 + 2.0 * t),
@@ -468,7 +508,10 @@ mod tests {
                 let rate = (jet(h).value - jet(-h).value) / (2.0 * h);
                 let acceleration = (jet(h).rate - jet(-h).rate) / (2.0 * h);
                 // Truncation h²/6 times third derivatives of up to 1e4.
-                assert!((jet(0.0).rate - rate).abs() < 1e-6 * (1.0 + rate.abs()), "{function:?}");
+                assert!(
+                    (jet(0.0).rate - rate).abs() < 1e-6 * (1.0 + rate.abs()),
+                    "{function:?}"
+                );
                 let error = (jet(0.0).acceleration - acceleration).abs();
                 assert!(error < 1e-5 * (1.0 + acceleration.abs()), "{function:?}");
             }

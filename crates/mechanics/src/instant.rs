@@ -75,8 +75,16 @@ impl Instant {
         for _ in 0..ITERATIONS {
             self.residual(system, accelerations, multipliers)?;
             if renew {
-                system.assemble(Rows::Position, 0.0, &self.zero, multipliers, &mut self.matrix);
-                self.factors.factor(&self.matrix).map_err(Failure::Singular)?;
+                system.assemble(
+                    Rows::Position,
+                    0.0,
+                    &self.zero,
+                    multipliers,
+                    &mut self.matrix,
+                );
+                self.factors
+                    .factor(&self.matrix)
+                    .map_err(Failure::Singular)?;
             }
             self.factors.solve(&mut self.right);
             let mut change = 0.0_f64;
@@ -134,7 +142,9 @@ impl Instant {
     }
 
     fn not_a_number(&self, system: &mut System) -> Failure {
-        Failure::NotANumber { element: system.find_not_a_number() }
+        Failure::NotANumber {
+            element: system.find_not_a_number(),
+        }
     }
 
     /// Moves `state` onto the position constraints and then its velocities onto the velocity
@@ -148,8 +158,16 @@ impl Instant {
     ) -> Result<(), Failure> {
         let n = system.velocity_count();
         system.evaluate(state, false);
-        system.assemble(Rows::Position, 0.0, &self.zero, multipliers, &mut self.matrix);
-        self.factors.factor(&self.matrix).map_err(Failure::Singular)?;
+        system.assemble(
+            Rows::Position,
+            0.0,
+            &self.zero,
+            multipliers,
+            &mut self.matrix,
+        );
+        self.factors
+            .factor(&self.matrix)
+            .map_err(Failure::Singular)?;
         // One matrix serves: the corrections are of the size of the integration error.
         for _ in 0..10 {
             let mut error = 0.0_f64;
@@ -170,7 +188,11 @@ impl Instant {
             let evaluated = &system.evaluated[place];
             let rate = evaluated.rate_of(&system.constraints[place].bodies, state.velocities());
             let prescribed = system.constraints[place].level != Level::Acceleration;
-            self.right[n + row] = if prescribed { evaluated.rate - rate } else { 0.0 };
+            self.right[n + row] = if prescribed {
+                evaluated.rate - rate
+            } else {
+                0.0
+            };
         }
         self.factors.solve(&mut self.right);
         for (u, change) in state.velocities_mut().iter_mut().zip(&self.right[..n]) {
@@ -217,9 +239,19 @@ impl System {
     pub fn describe(&self, place: usize) -> String {
         let n = self.velocity_count();
         if place < n {
-            let component =
-                ["X", "Y", "Z", "rotation about X", "rotation about Y", "rotation about Z"];
-            return format!("{}, {}", self.model.bodies[place / 6].label, component[place % 6]);
+            let component = [
+                "X",
+                "Y",
+                "Z",
+                "rotation about X",
+                "rotation about Y",
+                "rotation about Z",
+            ];
+            return format!(
+                "{}, {}",
+                self.model.bodies[place / 6].label,
+                component[place % 6]
+            );
         }
         match self.rows.get(place - n) {
             Some(&constraint) => {
@@ -250,7 +282,10 @@ impl System {
                 format!("{element} gives a value that is not a finite number")
             }
             Failure::TurnsTooFar { body } => {
-                format!("{} would turn too far in one step", self.model.bodies[*body].label)
+                format!(
+                    "{} would turn too far in one step",
+                    self.model.bodies[*body].label
+                )
             }
         }
     }

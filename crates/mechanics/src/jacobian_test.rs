@@ -15,13 +15,21 @@ use crate::state::State;
 use crate::system::{Rows, System};
 
 fn label(statement: &'static str, id: usize) -> Label {
-    Label { statement, id: id as u32, name: String::new() }
+    Label {
+        statement,
+        id: id as u32,
+        name: String::new(),
+    }
 }
 
 /// Deterministic numbers of either sign, of order one.
 fn vector(seed: usize) -> Vector3<f64> {
     let s = seed as f64;
-    Vector3::new((1.7 * s + 0.3).sin(), (2.9 * s + 1.1).cos(), (0.8 * s * s + 0.5).sin())
+    Vector3::new(
+        (1.7 * s + 0.3).sin(),
+        (2.9 * s + 1.1).cos(),
+        (0.8 * s * s + 0.5).sin(),
+    )
 }
 
 const KINDS: [JointKind; 14] = [
@@ -63,7 +71,10 @@ fn of_time() -> Program {
 
 fn model() -> Model {
     let bodies = 5;
-    let mut model = Model { gravity: vector(99), ..Model::default() };
+    let mut model = Model {
+        gravity: vector(99),
+        ..Model::default()
+    };
     for body in 0..bodies {
         let r = vector(body + 40);
         model.bodies.push(Body {
@@ -75,7 +86,11 @@ fn model() -> Model {
             orientation: Quaternion::exp(&vector(body + 10)),
             velocity: vector(body + 20),
             // A point mass does not turn.
-            angular_velocity: if body == 4 { Vector3::zeros() } else { 0.7 * vector(body + 30) },
+            angular_velocity: if body == 4 {
+                Vector3::zeros()
+            } else {
+                0.7 * vector(body + 30)
+            },
             exact: [false; 6],
             given_velocity: [false; 6],
             rotates: body != 4,
@@ -92,7 +107,14 @@ fn model() -> Model {
         seed - 50
     };
     for (place, kind) in KINDS.into_iter().enumerate() {
-        let on = [Some(place % bodies), if place % 3 == 0 { None } else { Some((place + 2) % bodies) }];
+        let on = [
+            Some(place % bodies),
+            if place % 3 == 0 {
+                None
+            } else {
+                Some((place + 2) % bodies)
+            },
+        ];
         let [i, j] = on.map(|body| marker(&mut model, body));
         model.joints.push(Joint {
             label: label("JOINT", place + 1),
@@ -104,7 +126,10 @@ fn model() -> Model {
         });
     }
     let levels = [Level::Position, Level::Velocity];
-    for (place, freedom) in [MotionFreedom::AboutZ, MotionFreedom::Along(1)].into_iter().enumerate() {
+    for (place, freedom) in [MotionFreedom::AboutZ, MotionFreedom::Along(1)]
+        .into_iter()
+        .enumerate()
+    {
         let [i, j] = [Some(place), Some(place + 1)].map(|body| marker(&mut model, body));
         model.motions.push(Motion {
             label: label("MOTION", place + 1),
@@ -116,15 +141,32 @@ fn model() -> Model {
             start: JointStart::default(),
         });
     }
-    let kinds =
-        [ForceKind::LineOfSight, ForceKind::AlongZ, ForceKind::AboutZ, ForceKind::AboutZActionOnly];
+    let kinds = [
+        ForceKind::LineOfSight,
+        ForceKind::AlongZ,
+        ForceKind::AboutZ,
+        ForceKind::AboutZActionOnly,
+    ];
     for (place, kind) in kinds.into_iter().enumerate() {
-        let on = [Some(place), if place == 1 { None } else { Some((place + 1) % bodies) }];
+        let on = [
+            Some(place),
+            if place == 1 {
+                None
+            } else {
+                Some((place + 1) % bodies)
+            },
+        ];
         let [i, j] = on.map(|body| marker(&mut model, body));
         let k = marker(&mut model, Some((place + 3) % bodies));
         let measures = model.measures.len();
         for quantity in [Quantity::Displacement(1), Quantity::Velocity(0)] {
-            model.measures.push(Measure { quantity, i, j: k, k: j, l: k });
+            model.measures.push(Measure {
+                quantity,
+                i,
+                j: k,
+                k: j,
+                l: k,
+            });
         }
         model.forces.push(SingleForce {
             label: label("SFORCE", place + 1),
@@ -136,20 +178,32 @@ fn model() -> Model {
     }
     let inputs = friction::Inputs::ALL;
     let loads = [
-        (0, FrictionJoint::Revolute(friction::RevoluteLoad {
-            inputs,
-            pin_radius: 0.3,
-            friction_arm: 0.5,
-            bending_reaction_arm: 0.7,
-        })),
-        (1, FrictionJoint::Translational(friction::TranslationalLoad {
-            inputs,
-            reaction_arm: 0.4,
-            bending_factor: 1.2,
-            initial_overlap: 3.0,
-            overlap_sign: 1.0,
-        })),
-        (3, FrictionJoint::Spherical(friction::SphericalLoad { inputs, ball_radius: 0.6 })),
+        (
+            0,
+            FrictionJoint::Revolute(friction::RevoluteLoad {
+                inputs,
+                pin_radius: 0.3,
+                friction_arm: 0.5,
+                bending_reaction_arm: 0.7,
+            }),
+        ),
+        (
+            1,
+            FrictionJoint::Translational(friction::TranslationalLoad {
+                inputs,
+                reaction_arm: 0.4,
+                bending_factor: 1.2,
+                initial_overlap: 3.0,
+                overlap_sign: 1.0,
+            }),
+        ),
+        (
+            3,
+            FrictionJoint::Spherical(friction::SphericalLoad {
+                inputs,
+                ball_radius: 0.6,
+            }),
+        ),
     ];
     for (joint, load) in loads {
         model.frictions.push(Friction {
@@ -205,7 +259,12 @@ impl Residual {
     fn at(&mut self, change: &[f64]) -> Vec<f64> {
         let n = self.system.velocity_count();
         let (state, multipliers) = self.move_to(change);
-        let w: Vec<f64> = state.velocities().iter().zip(&self.past).map(|(u, p)| u - p).collect();
+        let w: Vec<f64> = state
+            .velocities()
+            .iter()
+            .zip(&self.past)
+            .map(|(u, p)| u - p)
+            .collect();
         let mut residual = vec![0.0; n + multipliers.len()];
         let mut force = vec![0.0; n];
         self.system.mass_times(&w, &mut residual[..n]);
@@ -218,7 +277,11 @@ impl Residual {
             let constraint = &self.system.constraints[place];
             let rate = evaluated.rate_of(&constraint.bodies, state.velocities()) - evaluated.rate;
             let position = self.rows == Rows::Position && constraint.level == Level::Position;
-            residual[n + row] = if position { evaluated.error / self.gamma } else { rate };
+            residual[n + row] = if position {
+                evaluated.error / self.gamma
+            } else {
+                rate
+            };
         }
         residual
     }
@@ -235,7 +298,14 @@ fn check(transition_velocity: f64, rows: Rows) {
     let size = n + system.row_count();
     let past: Vec<f64> = (0..n).map(|k| 0.5 * vector(k)[k % 3]).collect();
     let impulses: Vec<f64> = (0..size - n).map(|k| vector(k + 7)[k % 3]).collect();
-    let mut residual = Residual { system, base, past, impulses, gamma: 0.2, rows };
+    let mut residual = Residual {
+        system,
+        base,
+        past,
+        impulses,
+        gamma: 0.2,
+        rows,
+    };
     // Friction starts a little before the base point, so that there is creep.
     let start: Vec<f64> = (0..size).map(|k| 0.3 * vector(k + 3)[0]).collect();
     residual.move_to(&start);
@@ -243,9 +313,16 @@ fn check(transition_velocity: f64, rows: Rows) {
 
     let zero = vec![0.0; size];
     let (state, multipliers) = residual.move_to(&zero);
-    let w: Vec<f64> = state.velocities().iter().zip(&residual.past).map(|(u, p)| u - p).collect();
+    let w: Vec<f64> = state
+        .velocities()
+        .iter()
+        .zip(&residual.past)
+        .map(|(u, p)| u - p)
+        .collect();
     let mut matrix = Matrix::new(size);
-    residual.system.assemble(rows, residual.gamma, &w, &multipliers, &mut matrix);
+    residual
+        .system
+        .assemble(rows, residual.gamma, &w, &multipliers, &mut matrix);
     let assembled = matrix.to_dense();
     for column in 0..size {
         let turns = column >= n || column % 6 < 3 || column / 6 != 4;
@@ -266,7 +343,10 @@ fn check(transition_velocity: f64, rows: Rows) {
             let error = (entry - slope[row]).abs();
             // The point mass's rotations are not unknowns of the motion: their inertia alone stays.
             if turns && (row >= n || row % 6 < 3 || row / 6 != 4) {
-                let places = (residual.system.describe(row), residual.system.describe(column));
+                let places = (
+                    residual.system.describe(row),
+                    residual.system.describe(column),
+                );
                 assert!(error < 1e-8, "{places:?}: {entry} {}", slope[row]);
             }
         }

@@ -198,11 +198,7 @@ impl Memory {
 }
 
 /// Velocity of the sliding surfaces, I against J.
-fn surface_velocity(
-    friction: &Friction,
-    i: &MarkerFrame,
-    j: &MarkerFrame,
-) -> [f64; 3] {
+fn surface_velocity(friction: &Friction, i: &MarkerFrame, j: &MarkerFrame) -> [f64; 3] {
     let arm = friction.load.arm();
     match freedom(&friction.load) {
         Some(equation) => {
@@ -226,8 +222,8 @@ pub(crate) fn evaluate(
         FrictionJoint::Translational(load) => {
             let equation = Equation::Along(2);
             let value = equation.evaluate(i, j).value;
-            let displacement = memory.displacement + memory.change(friction, value)
-                - memory.initial_displacement;
+            let displacement =
+                memory.displacement + memory.change(friction, value) - memory.initial_displacement;
             let load = load.evaluate(reaction_force, reaction_moment, displacement);
             along_freedom(friction, memory, equation, load, i, j)
         }
@@ -235,7 +231,9 @@ pub(crate) fn evaluate(
             let load = load.evaluate(reaction_force, reaction_moment);
             along_freedom(friction, memory, Equation::AboutZ, load, i, j)
         }
-        FrictionJoint::Spherical(load) => spherical(friction, memory, load.evaluate(reaction_force), i, j),
+        FrictionJoint::Spherical(load) => {
+            spherical(friction, memory, load.evaluate(reaction_force), i, j)
+        }
     }
 }
 
@@ -259,7 +257,11 @@ fn along_freedom(
     } else {
         0.0
     };
-    let creep_by_position = if memory.stuck { arm * row.jacobian } else { Local::zeros() };
+    let creep_by_position = if memory.stuck {
+        arm * row.jacobian
+    } else {
+        Local::zeros()
+    };
     let coefficient = friction.law.evaluate(&[velocity], &[creep]);
     let r = resultant(&coefficient, load.value, friction.preload, friction.maximum);
     let force = r.force[0];
@@ -316,13 +318,15 @@ fn spherical(
     let (creep, turn) = if memory.stuck {
         let theta = log(&(to_j * i.axes * memory.rotation.transpose()));
         // The rotation of I comes in from the left, hence the Jacobian at −θ.
-        (Vector3::from(memory.creep) + arm * theta, arm * log_jacobian(&-theta))
+        (
+            Vector3::from(memory.creep) + arm * theta,
+            arm * log_jacobian(&-theta),
+        )
     } else {
         (Vector3::zeros(), Matrix3::zeros())
     };
     let coefficient = friction.law.evaluate(&velocity.into(), &creep.into());
-    let r: Resultant<3> =
-        resultant(&coefficient, load.value, friction.preload, friction.maximum);
+    let r: Resultant<3> = resultant(&coefficient, load.value, friction.preload, friction.maximum);
     let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
     let torque = j.axes * Vector3::from(r.force);
     // Derivatives of the torque along ground axes by the relative velocity and rotation.
@@ -351,16 +355,34 @@ fn spherical(
     };
     // Torque on I at 3, the opposite on J at 9.
     for (place, sign) in [(3, 1.0), (9, -1.0)] {
-        element.force.fixed_rows_mut::<3>(place).copy_from(&(sign * torque));
+        element
+            .force
+            .fixed_rows_mut::<3>(place)
+            .copy_from(&(sign * torque));
         let along = j.axes * Vector3::from(r.by_load);
         for k in 0..3 {
             let column = sign * load.by_force[k] * along;
-            element.by_reaction.fixed_view_mut::<3, 1>(place, k).copy_from(&column);
+            element
+                .by_reaction
+                .fixed_view_mut::<3, 1>(place, k)
+                .copy_from(&column);
         }
-        element.by_velocity.fixed_view_mut::<3, 3>(place, 3).copy_from(&(sign * by_omega));
-        element.by_velocity.fixed_view_mut::<3, 3>(place, 9).copy_from(&(-sign * by_omega));
-        element.by_position.fixed_view_mut::<3, 3>(place, 3).copy_from(&(sign * by_theta_i));
-        element.by_position.fixed_view_mut::<3, 3>(place, 9).copy_from(&(sign * by_theta_j));
+        element
+            .by_velocity
+            .fixed_view_mut::<3, 3>(place, 3)
+            .copy_from(&(sign * by_omega));
+        element
+            .by_velocity
+            .fixed_view_mut::<3, 3>(place, 9)
+            .copy_from(&(-sign * by_omega));
+        element
+            .by_position
+            .fixed_view_mut::<3, 3>(place, 3)
+            .copy_from(&(sign * by_theta_i));
+        element
+            .by_position
+            .fixed_view_mut::<3, 3>(place, 9)
+            .copy_from(&(sign * by_theta_j));
     }
     element
 }

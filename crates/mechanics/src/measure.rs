@@ -157,7 +157,13 @@ impl Frame<Dual> {
             e
         };
         let turned = |v: Vector3<f64>| {
-            move |k: usize| if k / 3 == 1 { unit(k).cross(&v) } else { Vector3::zeros() }
+            move |k: usize| {
+                if k / 3 == 1 {
+                    unit(k).cross(&v)
+                } else {
+                    Vector3::zeros()
+                }
+            }
         };
         let axes = [0, 1, 2].map(|axis| vector(&m.axis(axis), &turned(m.axis(axis))));
         Self {
@@ -173,7 +179,13 @@ impl Frame<Dual> {
                 3 => unit(k).cross(&m.arm),
                 _ => Vector3::zeros(),
             }),
-            omega: vector(&m.omega, &|k| if k / 3 == 3 { unit(k) } else { Vector3::zeros() }),
+            omega: vector(&m.omega, &|k| {
+                if k / 3 == 3 {
+                    unit(k)
+                } else {
+                    Vector3::zeros()
+                }
+            }),
         }
     }
 }
@@ -227,7 +239,9 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
         Quantity::Rotation(1) => c(2, 0).atan2(c(2, 2)),
         Quantity::Rotation(_) => c(0, 1).atan2(c(0, 0)),
         Quantity::Euler(0) => c(2, 0).atan2(-c(2, 1)),
-        Quantity::Euler(1) => (c(2, 0) * c(2, 0) + c(2, 1) * c(2, 1)).sqrt().atan2(c(2, 2)),
+        Quantity::Euler(1) => (c(2, 0) * c(2, 0) + c(2, 1) * c(2, 1))
+            .sqrt()
+            .atan2(c(2, 2)),
         Quantity::Euler(_) => c(0, 2).atan2(c(1, 2)),
         Quantity::YawPitchRoll(0) => c(0, 1).atan2(c(0, 0)),
         Quantity::YawPitchRoll(1) => asin_safe(c(0, 2)),
@@ -273,11 +287,20 @@ fn euler_parameter<T: Scalar>(n: usize, c: &impl Fn(usize, usize) -> T) -> T {
         }
     };
     // Divide by the largest parameter (Shepperd 1978).
-    let largest =
-        (0..4).fold(0, |b, p| if product(p, p).value() > product(b, b).value() { p } else { b });
+    let largest = (0..4).fold(0, |b, p| {
+        if product(p, p).value() > product(b, b).value() {
+            p
+        } else {
+            b
+        }
+    });
     let half = T::constant(0.5);
     let parameter = half * product(n, largest) / product(largest, largest).sqrt();
-    if largest != 0 && product(0, largest).value() < 0.0 { -parameter } else { parameter }
+    if largest != 0 && product(0, largest).value() < 0.0 {
+        -parameter
+    } else {
+        parameter
+    }
 }
 
 fn frames<T>(markers: [&MarkerFrame; 4], make: impl Fn(&MarkerFrame) -> Frame<T>) -> [Frame<T>; 4] {
@@ -405,7 +428,10 @@ mod tests {
                 for k in 0..12 {
                     let slope = (at(k, 1e-5) - at(k, -1e-5)) / 2e-5;
                     // Truncation 1e-10 times third derivatives, rounding 1e-11.
-                    assert!((slopes[k] - slope).abs() < 1e-8, "{quantity:?} body {body} {k}");
+                    assert!(
+                        (slopes[k] - slope).abs() < 1e-8,
+                        "{quantity:?} body {body} {k}"
+                    );
                 }
             }
         }
@@ -459,7 +485,10 @@ mod tests {
             omega: Vector3::zeros(),
         };
         let angles = [0.4, 0.9, -1.1];
-        let turned = MarkerFrame { axes: from_euler_313(&angles), ..ground };
+        let turned = MarkerFrame {
+            axes: from_euler_313(&angles),
+            ..ground
+        };
         let markers = [&turned, &ground, &ground, &ground];
         for (n, angle) in angles.iter().enumerate() {
             assert!((value(Quantity::Euler(n), markers) - angle).abs() < 1e-14);
@@ -471,7 +500,10 @@ mod tests {
         for axis in 0..3 {
             let mut theta = Vector3::zeros();
             theta[axis] = 0.7;
-            let turned = MarkerFrame { axes: Quaternion::exp(&theta).matrix(), ..ground };
+            let turned = MarkerFrame {
+                axes: Quaternion::exp(&theta).matrix(),
+                ..ground
+            };
             let markers = [&turned, &ground, &ground, &ground];
             assert!((value(Quantity::Rotation(axis), markers) - 0.7).abs() < 1e-14);
             assert!((value(Quantity::Body123(axis), markers) - 0.7).abs() < 1e-14);

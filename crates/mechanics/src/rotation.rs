@@ -17,12 +17,18 @@ pub struct Quaternion {
 
 impl Quaternion {
     /// No rotation.
-    pub const IDENTITY: Self = Self { w: 1.0, v: Vector3::new(0.0, 0.0, 0.0) };
+    pub const IDENTITY: Self = Self {
+        w: 1.0,
+        v: Vector3::new(0.0, 0.0, 0.0),
+    };
 
     /// From the four components `w, x, y, z`, as they stand.
     #[must_use]
     pub fn from_slice(q: &[f64]) -> Self {
-        Self { w: q[0], v: Vector3::new(q[1], q[2], q[3]) }
+        Self {
+            w: q[0],
+            v: Vector3::new(q[1], q[2], q[3]),
+        }
     }
 
     /// Writes the four components `w, x, y, z`.
@@ -50,7 +56,10 @@ impl Quaternion {
     #[must_use]
     pub fn normalized(&self) -> Self {
         let scale = 1.0 / self.norm_squared().sqrt();
-        Self { w: self.w * scale, v: self.v * scale }
+        Self {
+            w: self.w * scale,
+            v: self.v * scale,
+        }
     }
 
     /// Rotation by the rotation vector `theta` (axis times angle in radians).
@@ -58,8 +67,15 @@ impl Quaternion {
     pub fn exp(theta: &Vector3<f64>) -> Self {
         let half = 0.5 * theta.norm();
         // sin(x)/x by its series where the quotient would lose digits.
-        let sinc = if half < 1e-4 { 1.0 - half * half / 6.0 } else { half.sin() / half };
-        Self { w: half.cos(), v: 0.5 * sinc * theta }
+        let sinc = if half < 1e-4 {
+            1.0 - half * half / 6.0
+        } else {
+            half.sin() / half
+        };
+        Self {
+            w: half.cos(),
+            v: 0.5 * sinc * theta,
+        }
     }
 
     /// The rotation matrix.
@@ -136,9 +152,7 @@ pub fn log_jacobian(theta: &Vector3<f64>) -> Matrix3<f64> {
 /// Rotation matrix of body-fixed 3-1-3 Euler angles ψ, θ, φ: `Rz(ψ) Rx(θ) Rz(φ)`.
 #[must_use]
 pub fn from_euler_313(angles: &[f64; 3]) -> Matrix3<f64> {
-    let rz = |a: f64| {
-        Matrix3::new(a.cos(), -a.sin(), 0.0, a.sin(), a.cos(), 0.0, 0.0, 0.0, 1.0)
-    };
+    let rz = |a: f64| Matrix3::new(a.cos(), -a.sin(), 0.0, a.sin(), a.cos(), 0.0, 0.0, 0.0, 1.0);
     let b = angles[1];
     let rx = Matrix3::new(1.0, 0.0, 0.0, 0.0, b.cos(), -b.sin(), 0.0, b.sin(), b.cos());
     rz(angles[0]) * rx * rz(angles[2])
@@ -154,7 +168,11 @@ pub fn to_euler_313(m: &Matrix3<f64>) -> [f64; 3] {
     if sine < 1e-12 {
         return [m[(1, 0)].atan2(m[(0, 0)]), theta, 0.0];
     }
-    [m[(0, 2)].atan2(-m[(1, 2)]), theta, m[(2, 0)].atan2(m[(2, 1)])]
+    [
+        m[(0, 2)].atan2(-m[(1, 2)]),
+        theta,
+        m[(2, 0)].atan2(m[(2, 1)]),
+    ]
 }
 
 #[cfg(test)]
@@ -169,7 +187,11 @@ mod tests {
                 Vector3::new((1.1 * f).sin(), (2.3 * f).cos(), (0.7 * f + 1.0).sin()) * (f % 3.1);
             let q = Quaternion::exp(&theta);
             let back = Quaternion::from_matrix(&q.matrix());
-            let sign = if back.w * q.w + back.v.dot(&q.v) < 0.0 { -1.0 } else { 1.0 };
+            let sign = if back.w * q.w + back.v.dot(&q.v) < 0.0 {
+                -1.0
+            } else {
+                1.0
+            };
             assert!((back.v * sign - q.v).norm() < 1e-14);
             assert!((back.w * sign - q.w).abs() < 1e-14);
         }

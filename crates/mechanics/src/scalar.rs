@@ -107,7 +107,10 @@ impl Neg for Dual {
 }
 impl Scalar for Dual {
     fn constant(value: f64) -> Self {
-        Self { value, slopes: [0.0; 12] }
+        Self {
+            value,
+            slopes: [0.0; 12],
+        }
     }
     fn value(self) -> f64 {
         self.value
@@ -168,12 +171,20 @@ impl Div for Jet {
 impl Neg for Jet {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { value: -self.value, rate: -self.rate, acceleration: -self.acceleration }
+        Self {
+            value: -self.value,
+            rate: -self.rate,
+            acceleration: -self.acceleration,
+        }
     }
 }
 impl Scalar for Jet {
     fn constant(value: f64) -> Self {
-        Self { value, rate: 0.0, acceleration: 0.0 }
+        Self {
+            value,
+            rate: 0.0,
+            acceleration: 0.0,
+        }
     }
     fn value(self) -> f64 {
         self.value
@@ -204,7 +215,11 @@ impl<T: Scalar> Triple<T> {
         ])
     }
     pub(crate) fn minus(&self, other: &Self) -> Self {
-        Self([self.0[0] - other.0[0], self.0[1] - other.0[1], self.0[2] - other.0[2]])
+        Self([
+            self.0[0] - other.0[0],
+            self.0[1] - other.0[1],
+            self.0[2] - other.0[2],
+        ])
     }
     pub(crate) fn norm(&self) -> T {
         self.dot(self).sqrt()
@@ -223,7 +238,13 @@ mod tests {
             let sine = (t * Jet::constant(2.0)).chain(a.sin(), a.cos(), -a.sin());
             sine.atan2(Jet::constant(1.0) + t * t) * (Jet::constant(3.0) + t).sqrt()
         };
-        let at = |t: f64| f(Jet { value: t, rate: 1.0, acceleration: 0.0 });
+        let at = |t: f64| {
+            f(Jet {
+                value: t,
+                rate: 1.0,
+                acceleration: 0.0,
+            })
+        };
         let (t, h) = (0.4, 1e-4);
         let jet = at(t);
         let rate = (at(t + h).value - at(t - h).value) / (2.0 * h);

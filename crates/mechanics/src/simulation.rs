@@ -105,7 +105,10 @@ impl Simulation {
     #[must_use]
     pub fn new(model: Model, second: f64) -> Self {
         let system = System::new(model);
-        let scales = Scales { length: system.length_scale(), rate: 1.0 / second };
+        let scales = Scales {
+            length: system.length_scale(),
+            rate: 1.0 / second,
+        };
         Self {
             state: system.given_state(0.0),
             accelerations: vec![0.0; system.velocity_count()],
@@ -186,11 +189,19 @@ impl Simulation {
     /// The present instant, as it was solved last.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot<'_> {
-        Snapshot::new(&self.system, &self.state, &self.accelerations, &self.multipliers)
+        Snapshot::new(
+            &self.system,
+            &self.state,
+            &self.accelerations,
+            &self.multipliers,
+        )
     }
 
     fn error(&self, failure: &Failure) -> RunError {
-        RunError { time: self.state.time, message: self.system.explain(failure) }
+        RunError {
+            time: self.state.time,
+            message: self.system.explain(failure),
+        }
     }
 
     /// Integrates to `end`, reporting every accepted step and the states at the rising `outputs`
@@ -224,8 +235,7 @@ impl Simulation {
             longest_step: settings.longest_step,
             shortest_step: settings.shortest_step,
         };
-        let mut dynamics =
-            Dynamics::new(self.system.clone(), settings.formulation, self.scales);
+        let mut dynamics = Dynamics::new(self.system.clone(), settings.formulation, self.scales);
         dynamics.tolerance = settings.error;
         dynamics.newton_iterations = settings.newton_iterations;
         dynamics.observe_rates(self.state.velocities());
@@ -293,15 +303,24 @@ impl Simulation {
         self.system.history.clone_from(&dynamics.system.history);
         // Creep within the step counts from its start where the joint was stuck there, and back
         // from its end where the stick began within.
-        for (memory, previous) in
-            self.system.history.frictions.iter_mut().zip(&dynamics.previous)
+        for (memory, previous) in self
+            .system
+            .history
+            .frictions
+            .iter_mut()
+            .zip(&dynamics.previous)
         {
             if time < bdf.time() && previous.stuck {
                 *memory = *previous;
             }
         }
         let solved = instant
-            .project(&mut self.system, &mut self.state, &self.multipliers, self.scales.length)
+            .project(
+                &mut self.system,
+                &mut self.state,
+                &self.multipliers,
+                self.scales.length,
+            )
             .and_then(|()| {
                 instant.accelerations(
                     &mut self.system,
@@ -329,7 +348,12 @@ impl Simulation {
         later.state.time += ahead;
         let step: Vec<f64> = self.system_step(ahead);
         later.state.displace(&step);
-        for (u, a) in later.state.velocities_mut().iter_mut().zip(&self.accelerations) {
+        for (u, a) in later
+            .state
+            .velocities_mut()
+            .iter_mut()
+            .zip(&self.accelerations)
+        {
             *u += ahead * a;
         }
         let solved = instant.accelerations(
@@ -342,11 +366,18 @@ impl Simulation {
             return ahead;
         }
         let later_slope = self::slope(&later.state, &later.accelerations);
-        let half_curvature: Vec<f64> =
-            later_slope.iter().zip(slope).map(|(b, a)| 0.5 * (b - a) / ahead).collect();
+        let half_curvature: Vec<f64> = later_slope
+            .iter()
+            .zip(slope)
+            .map(|(b, a)| 0.5 * (b - a) / ahead)
+            .collect();
         let error = bdf::System::norm(dynamics, &half_curvature);
         let size = (0.5 / error.max(1e-300)).sqrt();
-        if size.is_finite() { size.clamp(1e-6 * longest, 0.1 * longest) } else { ahead }
+        if size.is_finite() {
+            size.clamp(1e-6 * longest, 0.1 * longest)
+        } else {
+            ahead
+        }
     }
 
     fn system_step(&self, time: f64) -> Vec<f64> {
@@ -385,6 +416,7 @@ fn total(before: &Statistics, steps: bdf::Statistics, work: Work) -> Statistics 
         work: Work {
             residuals: before.work.residuals + work.residuals,
             factorisations: before.work.factorisations + work.factorisations,
+            index3_steps: before.work.index3_steps + work.index3_steps,
         },
     }
 }
@@ -394,7 +426,10 @@ fn slope(state: &State, accelerations: &[f64]) -> Vec<f64> {
     let mut slope = Vec::with_capacity(state.values.len());
     for (body, u) in state.velocities().chunks_exact(VELOCITIES).enumerate() {
         slope.extend_from_slice(&u[..3]);
-        let half = Quaternion { w: 0.0, v: 0.5 * Vector3::from_column_slice(&u[3..]) };
+        let half = Quaternion {
+            w: 0.0,
+            v: 0.5 * Vector3::from_column_slice(&u[3..]),
+        };
         let rate = half.times(&state.orientation(body));
         slope.extend_from_slice(&[rate.w, rate.v.x, rate.v.y, rate.v.z]);
     }
@@ -405,7 +440,10 @@ fn slope(state: &State, accelerations: &[f64]) -> Vec<f64> {
 /// Kinetic energy of the bodies, in the model's unit of energy.
 #[must_use]
 pub fn kinetic_energy(model: &Model, state: &State) -> f64 {
-    let energies = model.bodies.iter().zip(state.velocities().chunks_exact(VELOCITIES));
+    let energies = model
+        .bodies
+        .iter()
+        .zip(state.velocities().chunks_exact(VELOCITIES));
     let energies = energies.enumerate().map(|(place, (body, u))| {
         let velocity = Vector3::from_column_slice(&u[..3]);
         let rotation: Matrix3<f64> = state.orientation(place).matrix();
@@ -419,5 +457,7 @@ pub fn kinetic_energy(model: &Model, state: &State) -> f64 {
 #[must_use]
 pub fn gravity_energy(model: &Model, state: &State) -> f64 {
     let bodies = model.bodies.iter().enumerate();
-    bodies.map(|(place, body)| -body.mass * model.gravity.dot(&state.centre(place))).sum()
+    bodies
+        .map(|(place, body)| -body.mass * model.gravity.dot(&state.centre(place)))
+        .sum()
 }

@@ -35,7 +35,12 @@ impl<'a> Snapshot<'a> {
         accelerations: &'a [f64],
         multipliers: &'a [f64],
     ) -> Self {
-        Self { system, state, accelerations, multipliers }
+        Self {
+            system,
+            state,
+            accelerations,
+            multipliers,
+        }
     }
 
     /// Time.
@@ -67,7 +72,10 @@ impl<'a> Snapshot<'a> {
     pub fn marker_acceleration(&self, marker: usize) -> MarkerAcceleration {
         let frame = self.marker(marker);
         let Some(body) = frame.body else {
-            return MarkerAcceleration { linear: Vector3::zeros(), angular: Vector3::zeros() };
+            return MarkerAcceleration {
+                linear: Vector3::zeros(),
+                angular: Vector3::zeros(),
+            };
         };
         self.acceleration_at(body, &frame.arm)
     }
@@ -121,7 +129,10 @@ impl<'a> Snapshot<'a> {
         let local = self.system.force_direction(element) * value;
         let push = Vector3::new(local[0], local[1], local[2]);
         let turn = Vector3::new(local[3], local[4], local[5]);
-        Wrench { force: push, torque: turn - i.arm.cross(&push) }
+        Wrench {
+            force: push,
+            torque: turn - i.arm.cross(&push),
+        }
     }
 
     fn force_value(&self, force: usize) -> f64 {

@@ -62,7 +62,9 @@ impl State {
                 self.values[place + axis] += change[axis];
             }
             let theta = Vector3::from_column_slice(&change[3..6]);
-            let turned = Quaternion::exp(&theta).times(&self.orientation(body)).normalized();
+            let turned = Quaternion::exp(&theta)
+                .times(&self.orientation(body))
+                .normalized();
             turned.write(&mut self.values[place + 3..place + POSITIONS]);
         }
     }

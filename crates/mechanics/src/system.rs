@@ -79,7 +79,10 @@ impl System {
     #[must_use]
     pub fn new(model: Model) -> Self {
         let constraints = list(&model);
-        let evaluated = constraints.iter().map(|c| Evaluated::new(c.bodies.len())).collect();
+        let evaluated = constraints
+            .iter()
+            .map(|c| Evaluated::new(c.bodies.len()))
+            .collect();
         let reactions = model
             .frictions
             .iter()
@@ -102,8 +105,10 @@ impl System {
             .iter()
             .map(|measure| {
                 let markers = measure.markers();
-                let mut bodies: Vec<usize> =
-                    markers.iter().filter_map(|&m| model.markers[m].body).collect();
+                let mut bodies: Vec<usize> = markers
+                    .iter()
+                    .filter_map(|&m| model.markers[m].body)
+                    .collect();
                 bodies.sort_unstable();
                 bodies.dedup();
                 bodies
@@ -116,7 +121,10 @@ impl System {
         let mut system = Self {
             bodies: vec![BodyFrame::at_rest(); model.bodies.len()],
             measures: vec![0.0; model.measures.len()],
-            measure_slopes: measure_bodies.iter().map(|b| vec![[0.0; 12]; b.len()]).collect(),
+            measure_slopes: measure_bodies
+                .iter()
+                .map(|b| vec![[0.0; 12]; b.len()])
+                .collect(),
             measure_bodies,
             needed,
             rows: Vec::new(),
@@ -127,7 +135,14 @@ impl System {
             time: 0.0,
             registers: vec![0.0; longest],
             adjoints: vec![0.0; longest],
-            jets: vec![Jet { value: 0.0, rate: 0.0, acceleration: 0.0 }; longest],
+            jets: vec![
+                Jet {
+                    value: 0.0,
+                    rate: 0.0,
+                    acceleration: 0.0
+                };
+                longest
+            ],
             model,
         };
         let all = vec![true; system.constraints.len()];
@@ -156,7 +171,12 @@ impl System {
     /// Degrees of freedom: those of the free bodies less the constraint equations in force.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
-        let free: usize = self.model.bodies.iter().map(|b| if b.rotates { 6 } else { 3 }).sum();
+        let free: usize = self
+            .model
+            .bodies
+            .iter()
+            .map(|b| if b.rotates { 6 } else { 3 })
+            .sum();
         free.saturating_sub(self.rows.len())
     }
 
@@ -184,7 +204,9 @@ impl System {
     }
 
     fn measure_frames(&self, measure: usize) -> [MarkerFrame; 4] {
-        self.model.measures[measure].markers().map(|m| self.marker(m))
+        self.model.measures[measure]
+            .markers()
+            .map(|m| self.marker(m))
     }
 
     /// Value of a measure of displacement or velocity; rotations are continuous over many turns.
@@ -231,8 +253,9 @@ impl System {
                 continue;
             }
             let [i, j, k, l] = self.measure_frames(place);
-            for (&body, slopes) in
-                self.measure_bodies[place].iter().zip(&mut self.measure_slopes[place])
+            for (&body, slopes) in self.measure_bodies[place]
+                .iter()
+                .zip(&mut self.measure_slopes[place])
             {
                 *slopes = measure::slopes(quantity, [&i, &j, &k, &l], body);
                 if !self.model.bodies[body].rotates {
@@ -256,10 +279,16 @@ impl System {
         let constraint = &self.constraints[place];
         let (mut value, mut rate, mut acceleration) = (row.value, 0.0, 0.0);
         if let Owner::Motion(motion) = constraint.owner {
-            let drive = self.model.motions[motion].function.run(&mut self.jets, |input| {
-                debug_assert_eq!(input, Input::Time, "motions depend on time only");
-                Jet { value: self.time, rate: 1.0, acceleration: 0.0 }
-            });
+            let drive = self.model.motions[motion]
+                .function
+                .run(&mut self.jets, |input| {
+                    debug_assert_eq!(input, Input::Time, "motions depend on time only");
+                    Jet {
+                        value: self.time,
+                        rate: 1.0,
+                        acceleration: 0.0,
+                    }
+                });
             match constraint.level {
                 Level::Position => {
                     value -= drive.value;
@@ -303,7 +332,10 @@ impl System {
             for (marker, rotation) in [(i, 3), (j, 9)] {
                 let body = self.model.markers[marker].body;
                 if body.is_some_and(|body| !self.model.bodies[body].rotates) {
-                    self.evaluated[place].local.fixed_rows_mut::<3>(rotation).fill(0.0);
+                    self.evaluated[place]
+                        .local
+                        .fixed_rows_mut::<3>(rotation)
+                        .fill(0.0);
                 }
             }
         }
@@ -311,7 +343,9 @@ impl System {
 
     /// A general constraint: value and gradient by measures, rates along the motion by jets.
     fn evaluate_function(&mut self, place: usize) {
-        let Owner::General(general) = self.constraints[place].owner else { return };
+        let Owner::General(general) = self.constraints[place].owner else {
+            return;
+        };
         let function = &self.model.constraints[general].function;
         let time = self.time;
         let measures = &self.measures;
@@ -324,7 +358,9 @@ impl System {
         let bodies = &self.constraints[place].bodies;
         function.gradient(&self.registers, &mut self.adjoints, |input, slope| {
             if let Input::Measure(measure) = input {
-                let motions = self.measure_bodies[measure].iter().zip(&self.measure_slopes[measure]);
+                let motions = self.measure_bodies[measure]
+                    .iter()
+                    .zip(&self.measure_slopes[measure]);
                 for (body, slopes) in motions {
                     if let Ok(block) = bodies.binary_search(body) {
                         for k in 0..6 {
@@ -345,8 +381,16 @@ impl System {
                 jet.value = measures[measure];
                 jet
             }
-            Input::Time => Jet { value: time, rate: 1.0, acceleration: 0.0 },
-            Input::Result(_) => Jet { value: f64::NAN, rate: 0.0, acceleration: 0.0 },
+            Input::Time => Jet {
+                value: time,
+                rate: 1.0,
+                acceleration: 0.0,
+            },
+            Input::Result(_) => Jet {
+                value: f64::NAN,
+                rate: 0.0,
+                acceleration: 0.0,
+            },
         });
         // G u + ∂g/∂t is the rate of the jet; what remains beside G u is prescribed.
         let along: f64 = bodies
@@ -354,7 +398,9 @@ impl System {
             .zip(&evaluated.jacobian)
             .map(|(&body, row)| {
                 let frame = &frames[body];
-                (0..3).map(|k| row[k] * frame.velocity[k] + row[3 + k] * frame.omega[k]).sum::<f64>()
+                (0..3)
+                    .map(|k| row[k] * frame.velocity[k] + row[3 + k] * frame.omega[k])
+                    .sum::<f64>()
             })
             .sum();
         evaluated.rate = along - jet.rate;
@@ -384,7 +430,11 @@ impl System {
         }
         for (row, &place) in self.rows.iter().enumerate() {
             let evaluated = &self.evaluated[place];
-            for (&body, block) in self.constraints[place].bodies.iter().zip(&evaluated.jacobian) {
+            for (&body, block) in self.constraints[place]
+                .bodies
+                .iter()
+                .zip(&evaluated.jacobian)
+            {
                 for k in 0..6 {
                     out[6 * body + k] += multipliers[row] * block[k];
                 }
@@ -405,7 +455,11 @@ impl System {
     fn add_local(&self, sides: &[Option<usize>; 2], local: &Local, out: &mut [f64]) {
         for (side, body) in sides.iter().enumerate() {
             if let Some(body) = *body {
-                let count = if self.model.bodies[body].rotates { 6 } else { 3 };
+                let count = if self.model.bodies[body].rotates {
+                    6
+                } else {
+                    3
+                };
                 for k in 0..count {
                     out[6 * body + k] += local[6 * side + k];
                 }
@@ -454,7 +508,10 @@ impl System {
             && fresh.bodies.len() == self.bodies.len()
             && fresh.model.measures.len() == self.model.measures.len()
             && fresh.model.frictions.len() == self.model.frictions.len();
-        assert!(same, "a changed model must keep the numbering of its equations");
+        assert!(
+            same,
+            "a changed model must keep the numbering of its equations"
+        );
         let active: Vec<bool> = self.constraints.iter().map(|c| c.row.is_some()).collect();
         let history = std::mem::take(&mut self.history);
         *self = fresh;
@@ -471,7 +528,9 @@ impl System {
     ) -> (Vector3<f64>, Vector3<f64>) {
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         for contribution in &self.reactions[place] {
-            let Some(row) = self.constraints[contribution.constraint].row else { continue };
+            let Some(row) = self.constraints[contribution.constraint].row else {
+                continue;
+            };
             match contribution.share {
                 Share::Force(axis) => force[axis] += multipliers[row],
                 Share::Moment => {
@@ -498,7 +557,13 @@ impl System {
         let mut by_turn = Matrix3::zeros();
         for contribution in &self.reactions[place] {
             let constraint = &self.constraints[contribution.constraint];
-            let Form::Pair { equation: Equation::Axes(k, l), .. } = constraint.form else { continue };
+            let Form::Pair {
+                equation: Equation::Axes(k, l),
+                ..
+            } = constraint.form
+            else {
+                continue;
+            };
             if let Some(row) = constraint.row {
                 // δ(A_Jᵀ (a × b)) = A_Jᵀ b× a× (δθ_I − δθ_J), as b is fixed to J.
                 by_turn += multipliers[row] * skew(&j.axis(l)) * skew(&i.axis(k));
@@ -597,23 +662,29 @@ impl System {
             let turning = direction_stiffness(force.kind, &i, &j);
             let sides = [i.body, j.body];
             self.add_local_matrix(&sides, &turning, -gamma * gamma * value, matrix);
-            force.function.gradient(&self.registers, &mut self.adjoints, |input, slope| {
-                let Input::Measure(measure) = input else { return };
-                let motions = self.measure_bodies[measure].iter().zip(&self.measure_slopes[measure]);
-                for (&body, slopes) in motions {
-                    for k in 0..6 {
-                        let change =
-                            slope * (gamma * gamma * slopes[k] + gamma * slopes[6 + k]);
-                        for (side, on) in sides.iter().enumerate() {
-                            let Some(on) = *on else { continue };
-                            for r in 0..6 {
-                                let entry = -direction[6 * side + r] * change;
-                                matrix.add(6 * on + r, 6 * body + k, entry);
+            force
+                .function
+                .gradient(&self.registers, &mut self.adjoints, |input, slope| {
+                    let Input::Measure(measure) = input else {
+                        return;
+                    };
+                    let motions = self.measure_bodies[measure]
+                        .iter()
+                        .zip(&self.measure_slopes[measure]);
+                    for (&body, slopes) in motions {
+                        for k in 0..6 {
+                            let change =
+                                slope * (gamma * gamma * slopes[k] + gamma * slopes[6 + k]);
+                            for (side, on) in sides.iter().enumerate() {
+                                let Some(on) = *on else { continue };
+                                for r in 0..6 {
+                                    let entry = -direction[6 * side + r] * change;
+                                    matrix.add(6 * on + r, 6 * body + k, entry);
+                                }
                             }
                         }
                     }
-                }
-            });
+                });
         }
     }
 
@@ -624,11 +695,13 @@ impl System {
             let sides = [i.body, j.body];
             let turning = element.by_reaction.fixed_columns::<3>(3)
                 * self.moment_change(place, &i, &j, multipliers);
-            let moving = gamma * element.by_velocity
-                + gamma * gamma * (element.by_position + turning);
+            let moving =
+                gamma * element.by_velocity + gamma * gamma * (element.by_position + turning);
             self.add_local_matrix(&sides, &moving, -1.0, matrix);
             for contribution in &self.reactions[place] {
-                let Some(row) = self.constraints[contribution.constraint].row else { continue };
+                let Some(row) = self.constraints[contribution.constraint].row else {
+                    continue;
+                };
                 let by_multiplier: Local = match contribution.share {
                     Share::Force(axis) => element.by_reaction.column(axis).into_owned(),
                     Share::Moment => {
@@ -657,7 +730,9 @@ impl System {
         for (row_side, row_body) in sides.iter().enumerate() {
             let Some(row_body) = *row_body else { continue };
             for (column_side, column_body) in sides.iter().enumerate() {
-                let Some(column_body) = *column_body else { continue };
+                let Some(column_body) = *column_body else {
+                    continue;
+                };
                 for r in 0..6 {
                     for c in 0..6 {
                         let free = (r < 3 || turns(row_body)) && (c < 3 || turns(column_body));
@@ -733,11 +808,17 @@ fn spread(sides: &[Option<usize>; 2], local: &Local, blocks: &mut [[f64; 6]]) {
 }
 
 fn reaction_of(constraints: &[Constraint], joint: usize) -> Vec<Contribution> {
-    let of_joint = constraints.iter().enumerate().filter(|(_, c)| c.owner == Owner::Joint(joint));
+    let of_joint = constraints
+        .iter()
+        .enumerate()
+        .filter(|(_, c)| c.owner == Owner::Joint(joint));
     of_joint
         .filter_map(|(constraint, c)| {
             let share = match c.form {
-                Form::Pair { equation: Equation::Along(axis), .. } => Share::Force(axis),
+                Form::Pair {
+                    equation: Equation::Along(axis),
+                    ..
+                } => Share::Force(axis),
                 Form::Pair { .. } => Share::Moment,
                 Form::Function => return None,
             };
