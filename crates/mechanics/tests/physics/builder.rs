@@ -1,0 +1,226 @@
+//! Models written down in ground axes: bodies where they stand, markers where they are.
+
+use mechanics::expression::{Binary, Input, Operation, Program};
+use mechanics::measure::{Measure, Quantity};
+use mechanics::model::{
+    Body, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Level, Marker,
+    Model, Motion, MotionFreedom, SingleForce,
+};
+use mechanics::rotation::Quaternion;
+use nalgebra::{Matrix3, Vector3};
+
+pub(crate) fn v(x: f64, y: f64, z: f64) -> Vector3<f64> {
+    Vector3::new(x, y, z)
+}
+
+/// Axes with z along `z`; x is the ground axis most perpendicular to it, made perpendicular.
+pub(crate) fn axes_with_z(z: Vector3<f64>) -> Matrix3<f64> {
+    let z = z.normalize();
+    let least = (0..3).fold(0, |b, k| if z[k].abs() < z[b].abs() { k } else { b });
+    let mut x = Vector3::zeros();
+    x[least] = 1.0;
+    let x = (x - x.dot(&z) * z).normalize();
+    Matrix3::from_columns(&[x, z.cross(&x), z])
+}
+
+/// A body by its place in the model, or ground.
+pub(crate) type On = Option<usize>;
+
+#[derive(Clone, Default)]
+pub(crate) struct Builder {
+    pub(crate) model: Model,
+}
+
+impl Builder {
+    pub(crate) fn new(gravity: Vector3<f64>) -> Self {
+        Self {
+            model: Model {
+                gravity,
+                ..Model::default()
+            },
+        }
+    }
+
+    fn label(statement: &'static str, count: usize) -> Label {
+        Label {
+            statement,
+            id: count as u32 + 1,
+            name: String::new(),
+        }
+    }
+
+    /// A body at rest with its centre of mass at `centre`, part axes `orientation`.
+    pub(crate) fn turned_body(
+        &mut self,
+        mass: f64,
+        inertia: Matrix3<f64>,
+        centre: Vector3<f64>,
+        orientation: Quaternion,
+    ) -> usize {
+        self.model.bodies.push(Body {
+            label: Self::label("PART", self.model.bodies.len()),
+            mass,
+            inertia,
+            centre: Vector3::zeros(),
+            origin: centre,
+            orientation,
+            velocity: Vector3::zeros(),
+            angular_velocity: Vector3::zeros(),
+            exact: [false; 6],
+            given_velocity: [false; 6],
+            rotates: true,
+        });
+        self.model.bodies.len() - 1
+    }
+
+    /// A body at rest with principal inertia along ground axes.
+    pub(crate) fn body(&mut self, mass: f64, inertia: [f64; 3], centre: Vector3<f64>) -> usize {
+        let inertia = Matrix3::from_diagonal(&Vector3::from(inertia));
+        self.turned_body(mass, inertia, centre, Quaternion::IDENTITY)
+    }
+
+    /// A uniform thin rod from `a` to `b`, without inertia about its own axis.
+    pub(crate) fn rod(&mut self, mass: f64, a: Vector3<f64>, b: Vector3<f64>) -> usize {
+        let d = b - a;
+        let inertia = mass / 12.0 * (d.norm_squared() * Matrix3::identity() - d * d.transpose());
+        self.turned_body(mass, inertia, 0.5 * (a + b), Quaternion::IDENTITY)
+    }
+
+    /// Gives a body the velocities of a rotation `omega` about the point `about`.
+    pub(crate) fn spin(&mut self, body: usize, omega: Vector3<f64>, about: Vector3<f64>) {
+        let body = &mut self.model.bodies[body];
+        body.velocity = omega.cross(&(body.origin - about));
+        body.angular_velocity = omega;
+        body.given_velocity = [true; 6];
+    }
+
+    /// A marker at `at` with the given axes, both in ground as the bodies stand.
+    pub(crate) fn marker(&mut self, on: On, at: Vector3<f64>, axes: Matrix3<f64>) -> usize {
+        let (offset, axes) = match on {
+            None => (at, axes),
+            Some(body) => {
+                let body = &self.model.bodies[body];
+                let to_part = body.orientation.matrix().transpose();
+                (to_part * (at - body.origin), to_part * axes)
+            }
+        };
+        let id = self.model.markers.len() as u32 + 1;
+        self.model.markers.push(Marker {
+            id,
+            body: on,
+            offset,
+            axes,
+        });
+        self.model.markers.len() - 1
+    }
+
+    /// A joint between markers that coincide at `at` with z along `z`.
+    pub(crate) fn joint(
+        &mut self,
+        kind: JointKind,
+        i: On,
+        j: On,
+        at: Vector3<f64>,
+        z: Vector3<f64>,
+    ) -> usize {
+        let axes = axes_with_z(z);
+        let i = self.marker(i, at, axes);
+        let j = self.marker(j, at, axes);
+        self.joint_of_markers(kind, i, j)
+    }
+
+    pub(crate) fn joint_of_markers(&mut self, kind: JointKind, i: usize, j: usize) -> usize {
+        self.model.joints.push(Joint {
+            label: Self::label("JOINT", self.model.joints.len()),
+            kind,
+            i,
+            j,
+            translation_start: JointStart::default(),
+            rotation_start: JointStart::default(),
+        });
+        self.model.joints.len() - 1
+    }
+
+    /// A revolute joint about z through `at`.
+    pub(crate) fn pin(&mut self, i: On, j: On, at: Vector3<f64>) -> usize {
+        self.joint(JointKind::Revolute, i, j, at, Vector3::z())
+    }
+
+    /// Starts a joint with an angular velocity of I against J about z of J.
+    pub(crate) fn start_turning(&mut self, joint: usize, omega: f64) {
+        self.model.joints[joint].rotation_start.velocity = Some(omega);
+    }
+
+    pub(crate) fn measure(&mut self, quantity: Quantity, i: usize, j: usize) -> usize {
+        self.model.measures.push(Measure {
+            quantity,
+            i,
+            j,
+            k: j,
+            l: j,
+        });
+        self.model.measures.len() - 1
+    }
+
+    pub(crate) fn force(&mut self, kind: ForceKind, i: usize, j: usize, function: Program) {
+        let label = Self::label("SFORCE", self.model.forces.len());
+        self.model.forces.push(SingleForce {
+            label,
+            i,
+            j,
+            kind,
+            function,
+        });
+    }
+
+    /// A constant torque about `axis` on a body alone.
+    pub(crate) fn torque(&mut self, body: usize, axis: Vector3<f64>, torque: f64) {
+        let at = self.model.bodies[body].origin;
+        let i = self.marker(Some(body), at, axes_with_z(axis));
+        let j = self.marker(None, at, axes_with_z(axis));
+        self.force(ForceKind::AboutZActionOnly, i, j, Program::constant(torque));
+    }
+
+    /// A spring between two points, without damping.
+    pub(crate) fn spring(&mut self, i: usize, j: usize, stiffness: f64, length: f64) {
+        let distance = self.measure(Quantity::Distance, i, j);
+        let mut force = Program::default();
+        let free = force.push(Operation::Constant(length));
+        let now = force.push(Operation::Input(Input::Measure(distance)));
+        let short = force.push(Operation::Binary(Binary::Subtract, free, now));
+        let stiffness = force.push(Operation::Constant(stiffness));
+        force.push(Operation::Binary(Binary::Multiply, stiffness, short));
+        self.force(ForceKind::LineOfSight, i, j, force);
+    }
+
+    /// A motion at a joint's markers whose function is `rate · time` (position), or `rate`.
+    pub(crate) fn drive(&mut self, joint: usize, freedom: MotionFreedom, level: Level, rate: f64) {
+        let mut function = Program::constant(rate);
+        if level == Level::Position {
+            let time = function.push(Operation::Input(Input::Time));
+            function.push(Operation::Binary(Binary::Multiply, 0, time));
+        }
+        let joint = &self.model.joints[joint];
+        self.model.motions.push(Motion {
+            label: Self::label("MOTION", self.model.motions.len()),
+            i: joint.i,
+            j: joint.j,
+            freedom,
+            level,
+            function,
+            start: JointStart::default(),
+        });
+    }
+
+    pub(crate) fn friction(&mut self, joint: usize, law: friction::Original, load: FrictionJoint) {
+        let label = Self::label("FRICTION", self.model.frictions.len());
+        self.model.frictions.push(Friction {
+            label,
+            joint,
+            law,
+            load,
+            preload: 0.0,
+            maximum: 1e40,
+        });
+    }
+}

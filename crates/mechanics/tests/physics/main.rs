@@ -1,0 +1,13 @@
+//! Mechanics against closed forms, published solutions and invariances.
+//!
+//! `cargo test -p mechanics --test physics -- --nocapture` prints the tables.
+#![allow(
+    clippy::print_stdout,
+    reason = "the tables of errors are what these tests show"
+)]
+
+mod builder;
+mod frictionless;
+mod runs;
+mod shared;
+mod systems;

@@ -1,0 +1,43 @@
+//! Reference data beside the checkout.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+/// A JSON file of the reference folder (`STICTION_SHARED`, else `../shared` beside the checkout),
+/// or `None` with a printed reason.
+pub(crate) fn reference(path: &str) -> Option<Value> {
+    let folder = std::env::var_os("STICTION_SHARED").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")),
+        PathBuf::from,
+    );
+    match std::fs::read_to_string(folder.join(path)) {
+        Ok(text) => Some(serde_json::from_str(&text).expect("reference files are JSON")),
+        Err(error) => {
+            println!("skipped: reference file {path} cannot be read ({error})");
+            None
+        }
+    }
+}
+
+/// A number of a reference file, given by its JSON pointer.
+pub(crate) fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value
+        .pointer(pointer)
+        .unwrap_or_else(|| panic!("no {pointer} in the file"));
+    // Some inputs of the reference files are written as text.
+    let text = || found.as_str().and_then(|text| text.parse().ok());
+    found
+        .as_f64()
+        .or_else(text)
+        .unwrap_or_else(|| panic!("{pointer} is no number"))
+}
+
+/// A list of numbers of a reference file.
+pub(crate) fn numbers(value: &Value, pointer: &str) -> Vec<f64> {
+    let list = value.pointer(pointer).and_then(Value::as_array);
+    let list = list.unwrap_or_else(|| panic!("no list {pointer} in the file"));
+    list.iter()
+        .map(|entry| entry.as_f64().expect("a number"))
+        .collect()
+}
