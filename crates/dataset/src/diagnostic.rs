@@ -51,6 +51,8 @@ codes! {
     Empty = "empty",
     /// The text breaks the rules of the language.
     Syntax = "syntax",
+    /// More messages than are shown.
+    TooMany = "too-many",
     /// The title line looks like a statement.
     TitleIsStatement = "title-is-statement",
     /// No statement or command has this name.
@@ -205,9 +207,10 @@ impl Diagnostic {
 pub(crate) struct Diagnostics<'a> {
     pub(crate) source: &'a Source,
     list: Vec<Diagnostic>,
-    /// Takes what comes after the limit.
+    /// The last message over the limit.
     overflow: Option<Box<Diagnostic>>,
     dropped: usize,
+    dropped_errors: usize,
 }
 
 /// More messages than this help nobody and would fill the memory.
@@ -220,6 +223,7 @@ impl<'a> Diagnostics<'a> {
             list: Vec::new(),
             overflow: None,
             dropped: 0,
+            dropped_errors: 0,
         }
     }
 
@@ -263,21 +267,26 @@ impl<'a> Diagnostics<'a> {
             return &mut self.list[last];
         }
         self.dropped += 1;
-        // An error must not be lost behind warnings: the file stays refused.
-        if severity == Severity::Error && self.dropped > 0 {
-            self.list[MOST - 1].severity = Severity::Error;
-        }
+        self.dropped_errors += usize::from(severity == Severity::Error);
         self.overflow.insert(Box::new(diagnostic))
     }
 
-    /// The messages in the order of their places.
+    /// The messages in the order of their places. The last one tells how many are not shown.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
         self.list.sort_by_key(|diagnostic| diagnostic.span.start);
-        if self.dropped > 0 {
-            let message = format!("{} more messages are not shown", self.dropped);
-            let mut last = self.list[MOST - 1].clone();
-            last.notes = vec![message];
-            self.list.push(last);
+        if let Some(mut last) = self.overflow {
+            last.code = Code::TooMany;
+            last.severity = match self.dropped_errors {
+                0 => Severity::Warning,
+                _ => Severity::Error,
+            };
+            last.message = format!(
+                "{} more messages are not shown, {} of them errors",
+                self.dropped, self.dropped_errors
+            );
+            last.notes.clear();
+            last.help = None;
+            self.list.push(*last);
         }
         self.list
     }

@@ -5,7 +5,19 @@
 //! ```
 //!
 //! Everything wrong in a file is reported in one go as [`Diagnostic`]s with a place in the file.
-//! No mechanics is in this crate.
+//! Nothing is ignored in silence: what is not simulated is an error, or a warning where it cannot
+//! change the motion. No mechanics is in this crate.
+//!
+//! Where to add what:
+//!
+//! | what | where |
+//! |---|---|
+//! | a statement | its row in `statements/table.rs`, its reader beside the others, its struct in `model` |
+//! | an argument | its row in the `KEYWORDS` of the statement |
+//! | a run-time function | its row in `expression/function.rs` |
+//! | a command | its row in `commands.rs` |
+//! | a rule of the whole model | `checks` |
+//! | a malformed file and its message | `tests/cases` |
 
 mod arguments;
 mod change;
@@ -27,7 +39,6 @@ pub use commands::read_commands;
 pub use diagnostic::{Code, Diagnostic, Severity};
 pub use expression::{
     ArgumentKind, BinaryOperator, DEEPEST, ElementKind, Expr, Expression, Function,
-    arguments_as_ids,
 };
 pub use model::*;
 pub use reader::read_dataset;

@@ -95,14 +95,6 @@ impl Expr {
     }
 }
 
-/// The identifiers of the marker, element and integer arguments of a call, in order.
-///
-/// `None` for a real argument; see [`Function::argument_kind`].
-#[must_use]
-pub fn arguments_as_ids(arguments: &[Expr]) -> Vec<Option<u32>> {
-    arguments.iter().map(Expr::as_id).collect()
-}
-
 /// An operation with two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOperator {

@@ -1,6 +1,7 @@
 //! INTEGRATOR, EQUILIBRIUM, KINEMATICS, IC and PREFERENCES.
 
 use super::Builder;
+use crate::diagnostic::Code;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{
     Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
@@ -53,6 +54,13 @@ pub(crate) fn integrator(reading: &mut Reading) -> Integrator {
         ("ORIGINAL", Corrector::Original),
         ("MODIFIED", Corrector::Modified),
     ];
+    if let (Some(hmin), Some(hmax)) = (reading.real("HMIN"), reading.real("HMAX"))
+        && hmin > hmax
+    {
+        let span = reading.place("HMIN");
+        let message = format!("HMIN = {hmin} is greater than HMAX = {hmax}");
+        reading.diagnostics.error(Code::OutOfRange, span, message);
+    }
     Integrator {
         method: reading.one_flag(&methods),
         formulation: reading.one_flag(&formulations),
@@ -179,6 +187,8 @@ pub(super) const PREFERENCES_KEYWORDS: &[Keyword] = &[
     keyword("SIMFAIL", Kind::Word),
     keyword("CONTACT_FACETING_TOLERANCE", Kind::Ignored(NO_CONTACT)),
     keyword("CONTACT_GEOMETRY_LIBRARY", Kind::Ignored(NO_CONTACT)),
+    keyword("FLEX_LIMIT_CHECK_ACTION", Kind::Ignored("parts are rigid")),
+    keyword("LIBPATH", Kind::Ignored("subroutines are not called")),
     keyword("NTHREADS", Kind::Ignored("one thread is used")),
     keyword(
         "STATUS_MESSAGE",

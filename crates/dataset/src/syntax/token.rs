@@ -179,7 +179,8 @@ impl Lexer<'_> {
     }
 
     fn next(&mut self) {
-        let is_blank = |byte| matches!(byte, b' ' | b'\t' | 11 | 12);
+        // Tabs, form feeds, and the byte 26 with which old systems end a text.
+        let is_blank = |byte| matches!(byte, b' ' | b'\t' | 11 | 12 | 26);
         let first = self.bytes[self.at];
         let one = self.at + 1;
         match first {
