@@ -242,9 +242,11 @@ fn damaged_files_never_panic() {
             .map(|worker| {
                 let originals = &originals;
                 scope.spawn(move || {
-                    let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ (worker as u64 + 1));
                     let mut count = 0;
-                    for _ in (worker..wanted).step_by(threads) {
+                    for index in (worker..wanted).step_by(threads) {
+                        // Each text has its own seed, whatever the number of threads.
+                        let seed = 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(index as u64 + 1);
+                        let mut random = Random(seed);
                         let mut text = originals[random.below(originals.len())].clone();
                         let other = &originals[random.below(originals.len())];
                         damage(&mut text, other, &mut random);
