@@ -1,0 +1,112 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// An open solver for friction in machine joints: reads Adams Solver datasets.
+#[derive(Debug, Parser)]
+#[command(name = "stiction", version, about, after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes:
+  0    success
+  2    wrong usage, or a file that cannot be written
+  3    error in the input, with file, line and column
+  4    the model cannot be assembled
+  5    the integration failed; the results so far are kept
+  130  interrupted (Ctrl-C); the results so far are kept";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Simulate a model and write its results
+    Run(RunArguments),
+    /// Look through a model without simulating it
+    ///
+    /// Reads and validates the files, assembles the model, and lists its degrees of freedom,
+    /// redundant equations, frictions whose joint reaction is not unique, and the defaults in use.
+    Check(CheckArguments),
+}
+
+/// Simulate a model and write its results.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:
+  stiction run delta.acf
+  stiction run pendulum.adm --end 2 --dtout 0.01 -o results
+  stiction run delta.acf --set FRICTION/103.MU_STATIC=0.2 --force",
+    after_long_help = EXIT_CODES
+)]
+pub(crate) struct RunArguments {
+    /// Command file (.acf), or dataset (.adm) together with --end
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: PathBuf,
+    /// Folder for the results [default: PREFIX-run in the working directory]
+    ///
+    /// It will hold PREFIX.res, PREFIX.req, PREFIX.msg and run.json, PREFIX being the output
+    /// prefix of the command file, else the base name of the dataset.
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// End of the one dynamic simulation of a dataset (.adm), in its unit of time
+    #[arg(long, value_name = "T")]
+    pub(crate) end: Option<f64>,
+    /// Number of output steps of that simulation
+    #[arg(long, value_name = "N", conflicts_with = "dtout", requires = "end")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) steps: Option<u32>,
+    /// Time between two outputs of that simulation
+    #[arg(long, value_name = "DT", requires = "end")]
+    pub(crate) dtout: Option<f64>,
+    /// Error tolerance instead of that of the INTEGRATOR statement
+    #[arg(long, value_name = "E")]
+    pub(crate) error: Option<f64>,
+    /// Change an argument before the run, such as FRICTION/103.MU_STATIC=0.2; may be repeated
+    #[arg(long = "set", value_name = "ELEMENT.ARGUMENT=VALUE")]
+    pub(crate) changes: Vec<String>,
+    /// How progress is shown, on standard error
+    ///
+    /// auto: a bar on a terminal, else nothing; plain: lines of text; json: one JSON object a
+    /// line; none: nothing.
+    #[arg(long, value_enum, default_value_t = ProgressKind::Auto)]
+    pub(crate) progress: ProgressKind,
+    /// Write into a folder that exists already; its files of the same names are replaced
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Look through a model without simulating it.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXIT_CODES)]
+pub(crate) struct CheckArguments {
+    /// Command file (.acf) or dataset (.adm)
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: PathBuf,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressKind {
+    /// A bar on a terminal, else nothing.
+    Auto,
+    /// Lines of text.
+    Plain,
+    /// One JSON object a line.
+    Json,
+    /// Nothing.
+    None,
+}
+
+/// Form of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people.
+    Text,
+    /// For programs.
+    Json,
+}

@@ -1,0 +1,38 @@
+//! How the program ends.
+
+use std::io::Write;
+
+/// Exit statuses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    Success,
+    Usage,
+    Input,
+    Assembly,
+    Integration,
+    Interrupted,
+}
+
+impl Exit {
+    /// The number that the shell sees.
+    pub(crate) fn code(self) -> u8 {
+        match self {
+            Self::Success => 0,
+            Self::Usage => 2,
+            Self::Input => 3,
+            Self::Assembly => 4,
+            Self::Integration => 5,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+/// Writes to standard error; a closed pipe is no reason to fail.
+pub(crate) fn complain(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Writes to standard output; a closed pipe is no reason to fail.
+pub(crate) fn say(text: &str) {
+    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}

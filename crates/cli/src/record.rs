@@ -1,0 +1,106 @@
+//! `run.json`: what a run was.
+
+use std::io::{self, Read};
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use stiction::{Outcome, Project, RunReport};
+
+use crate::arguments::RunArguments;
+use crate::exit::Exit;
+
+/// The exit status of an outcome.
+pub(crate) fn exit_of(outcome: &Outcome) -> Exit {
+    match outcome {
+        Outcome::Completed => Exit::Success,
+        Outcome::Interrupted => Exit::Interrupted,
+        Outcome::Refused(_) => Exit::Input,
+        Outcome::AssemblyFailed(_) => Exit::Assembly,
+        Outcome::IntegrationFailed(_) => Exit::Integration,
+    }
+}
+
+/// One word for an outcome, and what went wrong.
+pub(crate) fn words(outcome: &Outcome) -> (&'static str, Option<&str>) {
+    match outcome {
+        Outcome::Completed => ("completed", None),
+        Outcome::Interrupted => ("interrupted", None),
+        Outcome::Refused(text) => ("not simulated", Some(text)),
+        Outcome::AssemblyFailed(text) => ("assembly failed", Some(text)),
+        Outcome::IntegrationFailed(text) => ("integration failed", Some(text)),
+    }
+}
+
+/// The hashes of the files that a project was read from.
+pub(crate) fn inputs(project: &Project) -> Vec<Value> {
+    let files = project.files().iter();
+    let input = |path: &std::path::PathBuf| {
+        // A file that has gone since it was read has no hash any more.
+        json!({ "file": path.display().to_string(), "sha256": sha256(path).ok() })
+    };
+    files.map(input).collect()
+}
+
+fn sha256(path: &Path) -> io::Result<String> {
+    let mut file = std::fs::File::open(path)?;
+    let mut hash = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let count = file.read(&mut buffer)?;
+        if count == 0 {
+            break;
+        }
+        hash.update(&buffer[..count]);
+    }
+    Ok(hash
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect())
+}
+
+/// Writes `run.json` into `folder`.
+pub(crate) fn write(
+    folder: &Path,
+    inputs: &[Value],
+    arguments: &RunArguments,
+    report: &RunReport,
+) -> io::Result<()> {
+    let (outcome, message) = words(&report.outcome);
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let steps = &report.statistics.steps;
+    let value = json!({
+        "program": "stiction",
+        "version": env!("CARGO_PKG_VERSION"),
+        "inputs": inputs,
+        "options": {
+            "end": arguments.end,
+            "steps": arguments.steps,
+            "dtout": arguments.dtout,
+            "error": arguments.error,
+            "set": arguments.changes,
+        },
+        "outcome": outcome,
+        "message": message,
+        "exit_code": exit_of(&report.outcome).code(),
+        "time": report.time,
+        "simulations": report.simulations,
+        "outputs": report.outputs,
+        "warnings": report.warnings,
+        "timing": {
+            "finished_unix_seconds": now.map(|now| now.as_secs()).ok(),
+            "elapsed_seconds": report.elapsed,
+        },
+        "integrator": {
+            "steps": steps.steps,
+            "rejections": steps.rejections,
+            "failures": steps.failures,
+            "starts": steps.starts,
+            "residuals": report.statistics.work.residuals,
+            "factorisations": report.statistics.work.factorisations,
+        },
+    });
+    std::fs::write(folder.join("run.json"), format!("{value:#}\n"))
+}

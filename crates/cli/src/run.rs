@@ -1,0 +1,152 @@
+//! `stiction run`.
+
+use std::path::{Path, PathBuf};
+
+use stiction::{Project, RunOptions, RunReport, Session, friction_table};
+
+use crate::arguments::RunArguments;
+use crate::exit::{Exit, complain, say};
+use crate::progress::Monitor;
+use crate::record;
+
+/// Loads, runs and reports.
+pub(crate) fn run(arguments: &RunArguments) -> Exit {
+    match attempt(arguments) {
+        Ok(exit) => exit,
+        Err(Failure(exit, text)) => {
+            complain(&text);
+            exit
+        }
+    }
+}
+
+/// An exit status and what to say.
+struct Failure(Exit, String);
+
+fn usage(text: &str) -> Failure {
+    Failure(Exit::Usage, format!("error: {text}\n"))
+}
+
+fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
+    check_numbers(arguments)?;
+    let input = |error: stiction::InputError| Failure(Exit::Input, error.to_string());
+    let mut project = Project::load(&arguments.model).map_err(input)?;
+    for change in &arguments.changes {
+        let statement = statement(change).ok_or_else(|| {
+            usage(&format!(
+                "--set {change}: write it as FRICTION/103.MU_STATIC=0.2"
+            ))
+        })?;
+        project.set(&statement).map_err(input)?;
+    }
+    match (arguments.end, project.is_dataset_alone()) {
+        (Some(end), true) => project.push_dynamic(end, arguments.steps, arguments.dtout),
+        (None, true) => return Err(usage("a dataset (.adm) alone needs --end")),
+        (Some(_), false) => return Err(usage("--end is for a dataset (.adm) alone")),
+        (None, false) => {}
+    }
+    let session = Session::new(&project).map_err(input)?;
+    let folder = folder(arguments, &project)?;
+    for warning in session.warnings() {
+        complain(&warning.text);
+    }
+    let inputs = record::inputs(&project);
+    let mut monitor = Monitor::new(arguments.progress);
+    let options = RunOptions {
+        error: arguments.error,
+    };
+    let ran = session.run(&folder, options, &mut monitor);
+    monitor.finish();
+    let report = ran.map_err(|error| Failure(Exit::Usage, format!("error: {error}\n")))?;
+    record::write(&folder, &inputs, arguments, &report).map_err(|error| {
+        usage(&format!(
+            "cannot write {}: {error}",
+            folder.join("run.json").display()
+        ))
+    })?;
+    tell(&folder, &report);
+    Ok(record::exit_of(&report.outcome))
+}
+
+fn check_numbers(arguments: &RunArguments) -> Result<(), Failure> {
+    let numbers = [
+        ("--end", arguments.end),
+        ("--dtout", arguments.dtout),
+        ("--error", arguments.error),
+    ];
+    for (name, value) in numbers {
+        if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
+            return Err(usage(&format!("{name} must be a positive number")));
+        }
+    }
+    Ok(())
+}
+
+/// `FRICTION/103.MU_STATIC=0.2` as a statement: `FRICTION/103, MU_STATIC=0.2`.
+fn statement(change: &str) -> Option<String> {
+    let (place, value) = change.split_once('=')?;
+    let (element, argument) = place.split_once('.')?;
+    // Statements without a number take their arguments right behind the slash.
+    Some(match element.contains('/') {
+        true => format!("{element}, {argument}={value}"),
+        false => format!("{element}/{argument}={value}"),
+    })
+}
+
+/// Makes the folder of the results.
+fn folder(arguments: &RunArguments, project: &Project) -> Result<PathBuf, Failure> {
+    let folder = arguments
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}-run", project.prefix())));
+    if folder.exists() && !arguments.force {
+        let shown = folder.display();
+        return Err(usage(&format!(
+            "{shown} exists already; choose another folder with -o, or write into it with --force"
+        )));
+    }
+    std::fs::create_dir_all(&folder)
+        .map_err(|error| usage(&format!("cannot make {}: {error}", folder.display())))?;
+    Ok(folder)
+}
+
+/// Where the results are, and what friction did.
+fn tell(folder: &Path, report: &RunReport) {
+    let (outcome, message) = record::words(&report.outcome);
+    if let Some(message) = message {
+        complain(&format!("error: {message}\n"));
+    }
+    let steps = &report.statistics.steps;
+    let mut text = format!(
+        "{outcome} at time {}: {} outputs, {} steps, {:.2} s",
+        report.time, report.outputs, steps.steps, report.elapsed
+    );
+    if report.warnings > 0 {
+        text += &format!(", {} warnings in the .msg", report.warnings);
+    }
+    text += &format!("\nresults in {}:", folder.display());
+    for file in &report.files {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        text += &format!(" {name}");
+    }
+    text += " run.json\n";
+    let table = friction_table(&report.frictions);
+    if !table.is_empty() {
+        text += &format!("\n{table}");
+    }
+    say(&text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::statement;
+
+    #[test]
+    fn changes_become_statements() {
+        let change = statement("FRICTION/103.MU_STATIC=0.2");
+        assert_eq!(change.as_deref(), Some("FRICTION/103, MU_STATIC=0.2"));
+        let change = statement("ACCGRAV.KGRAV=-1.6");
+        assert_eq!(change.as_deref(), Some("ACCGRAV/KGRAV=-1.6"));
+        assert_eq!(statement("FRICTION/103"), None);
+    }
+}

@@ -1,0 +1,165 @@
+//! A project looked at without running it.
+
+use dataset::{Code, CommandKind, Diagnostic, Severity, SimulationKind};
+use mechanics::{AssemblyError, Moved, Redundancy, Simulation};
+
+use crate::defaults::{FrictionDefaults, defaults_in_use};
+use crate::lower::lower;
+use crate::message::{InputError, Message};
+use crate::project::Project;
+
+/// What can be said about a project without running it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckReport {
+    /// First line of the dataset.
+    pub title: String,
+    /// Number of elements by statement, those that occur.
+    pub elements: Vec<(&'static str, usize)>,
+    /// Degrees of freedom; `None` where the model cannot be assembled.
+    pub degrees_of_freedom: Option<usize>,
+    /// Equations that depend on others and are left out.
+    pub redundancies: Vec<Redundancy>,
+    /// Frictions whose joint's reaction is not unique for that reason.
+    pub not_unique: Vec<String>,
+    /// Parts that assembly moves.
+    pub moved: Vec<Moved>,
+    /// Arguments of FRICTION that are left at their defaults.
+    pub defaults: Vec<FrictionDefaults>,
+    /// Warnings, and errors of commands that are not simulated.
+    pub messages: Vec<Message>,
+    /// Why the model cannot be assembled.
+    pub assembly_error: Option<AssemblyError>,
+}
+
+/// Lowers and assembles a project.
+///
+/// # Errors
+/// Everything in its dataset that is not simulated.
+pub fn check(project: &Project) -> Result<CheckReport, InputError> {
+    let (mut measures, surveyed) = project.survey()?;
+    let mut messages = project.warnings().to_vec();
+    messages.extend(surveyed);
+    messages.extend(static_simulations(project));
+    let dataset = project.dataset();
+    let source = project.model_source();
+    let lowered = lower(dataset, source.name(), &mut measures).map_err(|diagnostics| {
+        let messages = diagnostics
+            .into_iter()
+            .map(|d| Message::new(d, source))
+            .collect();
+        InputError { messages }
+    })?;
+    let frictions: Vec<String> = lowered
+        .model
+        .frictions
+        .iter()
+        .map(|friction| friction.label.to_string())
+        .collect();
+    // The unit of time matters to the integrator only.
+    let mut simulation = Simulation::new(lowered.model, 1.0);
+    let counts = [
+        ("PART", dataset.parts.len()),
+        ("POINT_MASS", dataset.point_masses.len()),
+        ("MARKER", dataset.markers.len()),
+        ("JOINT", dataset.joints.len()),
+        ("JPRIM", dataset.primitives.len()),
+        ("GCON", dataset.constraints.len()),
+        ("MOTION", dataset.motions.len()),
+        ("SFORCE", dataset.single_forces.len()),
+        ("SPRINGDAMPER", dataset.spring_dampers.len()),
+        ("FRICTION", dataset.frictions.len()),
+        ("VARIABLE", dataset.variables.len()),
+        ("REQUEST", dataset.requests.len()),
+    ];
+    let mut report = CheckReport {
+        title: dataset.title.clone(),
+        elements: counts.into_iter().filter(|(_, count)| *count > 0).collect(),
+        degrees_of_freedom: None,
+        redundancies: Vec::new(),
+        not_unique: Vec::new(),
+        moved: Vec::new(),
+        defaults: defaults_in_use(dataset),
+        messages,
+        assembly_error: None,
+    };
+    match simulation.assemble() {
+        Ok(assembly) => {
+            report.degrees_of_freedom = Some(simulation.system().degrees_of_freedom());
+            report.redundancies = assembly.redundant;
+            report.moved = assembly.moved;
+            report.not_unique = assembly
+                .not_unique
+                .into_iter()
+                .map(|place| frictions[place].clone())
+                .collect();
+        }
+        Err(error) => report.assembly_error = Some(error),
+    }
+    Ok(report)
+}
+
+/// Errors for the commands that ask for an analysis that is not simulated.
+fn static_simulations(project: &Project) -> Vec<Message> {
+    use SimulationKind as K;
+    let refused = project.steps().iter().filter_map(|step| {
+        let CommandKind::Simulate(simulate) = &step.command.kind else {
+            return None;
+        };
+        if !matches!(simulate.kind, K::Static | K::QuasiStatic | K::Settle) {
+            return None;
+        }
+        let source = project.source(step.source);
+        let diagnostic = Diagnostic {
+            code: Code::UnsupportedStatement,
+            severity: Severity::Error,
+            message: format!("SIMULATE/{} is not simulated yet", simulate.kind.keyword()),
+            source: source.name().to_owned(),
+            span: step.command.span,
+            notes: Vec::new(),
+            help: Some("a run ends there; what comes before it is simulated".to_owned()),
+        };
+        Some(Message::new(diagnostic, source))
+    });
+    refused.collect()
+}
+
+impl std::fmt::Display for CheckReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for message in &self.messages {
+            write!(f, "{message}")?;
+        }
+        writeln!(f, "{}", self.title)?;
+        let counts: Vec<String> = self
+            .elements
+            .iter()
+            .map(|(name, count)| format!("{count} {name}"))
+            .collect();
+        writeln!(f, "elements: {}", counts.join(", "))?;
+        if let Some(freedoms) = self.degrees_of_freedom {
+            writeln!(f, "degrees of freedom: {freedoms}")?;
+        }
+        if !self.redundancies.is_empty() {
+            writeln!(f, "redundant equations, left out:")?;
+            for dropped in &self.redundancies {
+                writeln!(f, "  {} in {}", dropped.equation, dropped.owner)?;
+            }
+        }
+        for friction in &self.not_unique {
+            writeln!(f, "warning: the reaction behind {friction} is not unique")?;
+        }
+        for moved in &self.moved {
+            writeln!(
+                f,
+                "assembly moves {} by {:.3e} and turns it by {:.3e} rad",
+                moved.body, moved.distance, moved.angle
+            )?;
+        }
+        for defaults in &self.defaults {
+            writeln!(f, "{defaults}")?;
+        }
+        match &self.assembly_error {
+            Some(error) => writeln!(f, "error: {error}"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The message file: what a person wants to read about a run.
+
+use std::collections::HashSet;
+use std::io::{self, Write};
+
+use dataset::{Dataset, Severity};
+use mechanics::model::Model;
+use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
+use results::{MessageWriter, StepRow};
+
+use crate::defaults::defaults_in_use;
+use crate::message::Message;
+use crate::session::OutputError;
+
+/// Writer of the message file of a run.
+pub(crate) struct Journal<W: Write> {
+    writer: MessageWriter<W>,
+    path: String,
+    warnings: usize,
+    /// Frictions whose overlap has been warned about.
+    exhausted: HashSet<usize>,
+}
+
+impl<W: Write> Journal<W> {
+    pub(crate) fn new(writer: MessageWriter<W>, path: String) -> Self {
+        Self {
+            writer,
+            path,
+            warnings: 0,
+            exhausted: HashSet::new(),
+        }
+    }
+
+    fn check(&self, written: io::Result<()>) -> Result<(), OutputError> {
+        written.map_err(|error| OutputError::new(self.path.clone(), &error))
+    }
+
+    /// Number of warnings so far.
+    pub(crate) fn warnings(&self) -> usize {
+        self.warnings
+    }
+
+    pub(crate) fn command(&mut self, echo: &str) -> Result<(), OutputError> {
+        let written = self.writer.command(echo);
+        self.check(written)
+    }
+
+    pub(crate) fn note(&mut self, text: &str) -> Result<(), OutputError> {
+        let written = self.writer.note(text);
+        self.check(written)
+    }
+
+    pub(crate) fn warning(&mut self, text: &str) -> Result<(), OutputError> {
+        self.warnings += 1;
+        let written = self.writer.warning(text);
+        self.check(written)
+    }
+
+    pub(crate) fn step_row(&mut self, row: &StepRow) -> Result<(), OutputError> {
+        let written = self.writer.step_row(row);
+        self.check(written)
+    }
+
+    /// A warning or note about the input.
+    pub(crate) fn message(&mut self, message: &Message) -> Result<(), OutputError> {
+        let text = message.text.trim_end();
+        if message.diagnostic.severity == Severity::Note {
+            self.note(text)
+        } else {
+            self.warning(text)
+        }
+    }
+
+    /// Title, size of the model and defaults in use.
+    pub(crate) fn model(&mut self, dataset: &Dataset, model: &Model) -> Result<(), OutputError> {
+        let written = self.writer.title(&dataset.title);
+        self.check(written)?;
+        self.note(&format!(
+            "{} moving parts, {} joints, {} motions, {} general constraints, {} forces, {} \
+             frictions, {} variables, {} requests",
+            model.bodies.len(),
+            model.joints.len(),
+            model.motions.len(),
+            model.constraints.len(),
+            model.forces.len(),
+            model.frictions.len(),
+            dataset.variables.len(),
+            dataset.requests.len(),
+        ))?;
+        if !dataset.constraints.is_empty() {
+            self.note("the reactions of general constraints are not in the results yet")?;
+        }
+        for line in defaults_in_use(dataset) {
+            self.note(&line.to_string())?;
+        }
+        Ok(())
+    }
+
+    /// What assembly did, degrees of freedom and redundant equations.
+    pub(crate) fn assembly(
+        &mut self,
+        assembly: &Assembly,
+        freedoms: usize,
+        model: &Model,
+    ) -> Result<(), OutputError> {
+        let redundant: Vec<(String, String)> = assembly
+            .redundant
+            .iter()
+            .map(|dropped| (dropped.equation.clone(), dropped.owner.to_string()))
+            .collect();
+        let count = i64::try_from(freedoms).unwrap_or(i64::MAX);
+        let written = self.writer.degrees_of_freedom(count, &redundant);
+        self.check(written)?;
+        for moved in &assembly.moved {
+            self.note(&format!(
+                "assembly moved {} by {:.3e} and turned it by {:.3e} rad",
+                moved.body, moved.distance, moved.angle
+            ))?;
+        }
+        for change in &assembly.velocity_changes {
+            self.note(&format!(
+                "assembly changed the velocity of {} by {:.3e}, its angular velocity by {:.3e}",
+                change.body, change.linear, change.angular
+            ))?;
+        }
+        for &friction in &assembly.not_unique {
+            let friction = &model.frictions[friction];
+            self.warning(&format!(
+                "{}: the reaction of its {} is not unique, because of the redundant constraints; \
+                 its friction depends on which equations were left out",
+                friction.label, model.joints[friction.joint].label
+            ))?;
+        }
+        Ok(())
+    }
+
+    /// Head of a simulation.
+    pub(crate) fn begin(
+        &mut self,
+        settings: &Settings,
+        notes: &[&String],
+        start: f64,
+    ) -> Result<(), OutputError> {
+        let name = match settings.formulation {
+            Formulation::I3 => "BDF I3",
+            Formulation::Si2 => "BDF SI2",
+        };
+        let written = self
+            .writer
+            .begin_simulation("Dynamic", name, settings.error);
+        self.check(written)?;
+        for note in notes {
+            self.note(note)?;
+        }
+        self.note(&format!(
+            "steps of {:e} to {:e}, order at most {}, at most {} iterations\n",
+            settings.shortest_step,
+            settings.longest_step,
+            settings.highest_order,
+            settings.newton_iterations
+        ))?;
+        let written = self.writer.step_table();
+        self.check(written)?;
+        self.step_row(&StepRow {
+            time: start,
+            step: settings.first_step.unwrap_or(0.0),
+            evaluations: 0,
+            steps: 0,
+            order: 1,
+            elapsed: 0.0,
+        })
+    }
+
+    /// End of a simulation that went through.
+    pub(crate) fn end(&mut self, statistics: &Statistics) -> Result<(), OutputError> {
+        self.statistics(statistics)?;
+        let written = self.writer.end_simulation();
+        self.check(written)
+    }
+
+    fn statistics(&mut self, statistics: &Statistics) -> Result<(), OutputError> {
+        let (steps, work) = (&statistics.steps, &statistics.work);
+        self.note(&format!(
+            "so far: {} steps, {} rejected by the error test, {} not solved, {} starts, {} \
+             residuals, {} factorisations",
+            steps.steps,
+            steps.rejections,
+            steps.failures,
+            steps.starts,
+            work.residuals,
+            work.factorisations
+        ))
+    }
+
+    /// Warns once for each sliding joint that has left its guide.
+    pub(crate) fn watch_overlap(&mut self, snapshot: &Snapshot<'_>) -> Result<(), OutputError> {
+        for (place, friction) in snapshot.model().frictions.iter().enumerate() {
+            let exhausted = snapshot.friction(place).load.overlap_exhausted;
+            if exhausted && self.exhausted.insert(place) {
+                self.warning(&format!(
+                    "{}: the overlap of its joint is used up at time {}; a thousandth of \
+                     INITIAL_OVERLAP is kept",
+                    friction.label,
+                    snapshot.time()
+                ))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The end: what failed, the table of friction and the timing.
+    pub(crate) fn finish(
+        &mut self,
+        failure: Option<&str>,
+        table: &str,
+        elapsed: f64,
+    ) -> Result<(), OutputError> {
+        if !table.is_empty() {
+            self.note(&format!("\nFriction:\n{table}"))?;
+        }
+        let cpu = processor_time().unwrap_or(elapsed);
+        let written = match failure {
+            Some(text) => self
+                .writer
+                .error(text)
+                .and_then(|()| self.writer.timing(elapsed, cpu)),
+            None => self.writer.finish(elapsed, cpu),
+        };
+        self.check(written)
+    }
+}
+
+/// Processor time of this thread in seconds, where the system tells it.
+fn processor_time() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(nanoseconds * 1e-9)
+}

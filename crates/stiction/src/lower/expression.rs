@@ -1,0 +1,344 @@
+//! Run-time expressions to programs: one table from functions to operations.
+
+use std::collections::{HashMap, HashSet};
+
+use dataset::{
+    ArgumentKind, BinaryOperator, Code, Element, Expr, Expression, Function, Severity, Span,
+};
+use mechanics::expression::{Binary, Input, Operation, Program, Register, Unary};
+use mechanics::measure::Order;
+
+use super::results::ResultSource;
+use super::{Lowering, composite};
+
+/// What a function may read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reads {
+    /// TIME only: motions.
+    Time,
+    /// Displacements too: general constraints.
+    Displacements,
+    /// Velocities too: forces.
+    Velocities,
+    /// Accelerations and forces too: outputs.
+    Everything,
+}
+
+/// An expression, or a part of one, that is not simulated; it has been reported.
+pub(super) struct Refused;
+
+/// A program while expressions are added to it.
+pub(super) struct Compiler {
+    pub(super) program: Program,
+    reads: Reads,
+    /// What the expressions belong to, for messages, such as `SFORCE/3`.
+    owner: String,
+    /// Place of the expression.
+    span: Span,
+    /// Values of the variables that are in the program already; `None` for a refused one.
+    variables: HashMap<u32, Option<Register>>,
+}
+
+impl Compiler {
+    pub(super) fn new(reads: Reads) -> Self {
+        Self {
+            program: Program::default(),
+            reads,
+            owner: String::new(),
+            span: Span::default(),
+            variables: HashMap::new(),
+        }
+    }
+
+    fn constant(&mut self, value: f64) -> Register {
+        self.program.push(Operation::Constant(value))
+    }
+
+    /// Adds an expression of `owner`, after the variables that it reads; returns its value.
+    pub(super) fn add(
+        &mut self,
+        lowering: &mut Lowering,
+        owner: &str,
+        expression: &Expression,
+    ) -> Result<Register, Refused> {
+        owner.clone_into(&mut self.owner);
+        self.add_variables(lowering, &expression.root)?;
+        self.span = expression.span;
+        self.expr(lowering, &expression.root)
+    }
+
+    /// Value of a variable.
+    pub(super) fn variable(
+        &mut self,
+        lowering: &mut Lowering,
+        id: u32,
+    ) -> Result<Register, Refused> {
+        self.owner = format!("VARIABLE/{id}");
+        self.close_variable(lowering, id)?;
+        self.variables.get(&id).copied().flatten().ok_or(Refused)
+    }
+
+    fn add_variables(&mut self, lowering: &mut Lowering, root: &Expr) -> Result<(), Refused> {
+        for id in variables_of(lowering, root) {
+            self.close_variable(lowering, id)?;
+        }
+        Ok(())
+    }
+
+    /// Adds a variable after all variables that it reads, each once. The dataset has no circles.
+    fn close_variable(&mut self, lowering: &mut Lowering, id: u32) -> Result<(), Refused> {
+        let mut stack = vec![id];
+        let mut opened = HashSet::new();
+        while let Some(&top) = stack.last() {
+            let function = lowering.dataset.variables.by_id(top).map(|v| &v.function);
+            let Some(function) = function.filter(|_| !self.variables.contains_key(&top)) else {
+                stack.pop();
+                continue;
+            };
+            if opened.insert(top) {
+                let needed = variables_of(lowering, &function.root);
+                stack.extend(
+                    needed
+                        .into_iter()
+                        .filter(|v| !self.variables.contains_key(v)),
+                );
+            } else {
+                self.span = function.span;
+                let value = self.expr(lowering, &function.root).ok();
+                self.variables.insert(top, value);
+                stack.pop();
+            }
+        }
+        match self.variables.get(&id) {
+            Some(Some(_)) => Ok(()),
+            _ => Err(Refused),
+        }
+    }
+
+    /// Recursion is no deeper than an expression, which is `dataset::DEEPEST` at most.
+    fn expr(&mut self, lowering: &mut Lowering, expr: &Expr) -> Result<Register, Refused> {
+        Ok(match expr {
+            Expr::Number(value) => self.constant(*value),
+            Expr::Time => self.program.push(Operation::Input(Input::Time)),
+            Expr::Mode => {
+                let message = format!(
+                    "{}: MODE is 4, dynamics, throughout; there is no other analysis yet",
+                    self.owner
+                );
+                lowering.add(Severity::Note, Code::Ignored, self.span, message, None);
+                self.constant(4.0)
+            }
+            Expr::Negate(operand) => {
+                let operand = self.expr(lowering, operand)?;
+                self.program.push(Operation::Unary(Unary::Negate, operand))
+            }
+            Expr::Binary {
+                operator,
+                left,
+                right,
+            } => {
+                let left = self.expr(lowering, left)?;
+                let right = self.expr(lowering, right)?;
+                let operator = match operator {
+                    BinaryOperator::Add => Binary::Add,
+                    BinaryOperator::Subtract => Binary::Subtract,
+                    BinaryOperator::Multiply => Binary::Multiply,
+                    BinaryOperator::Divide => Binary::Divide,
+                    BinaryOperator::Power => Binary::Power,
+                };
+                self.program.push(Operation::Binary(operator, left, right))
+            }
+            Expr::Call { .. } => self.call(lowering, expr)?,
+        })
+    }
+
+    fn call(&mut self, lowering: &mut Lowering, call: &Expr) -> Result<Register, Refused> {
+        let Expr::Call {
+            function,
+            arguments,
+            ..
+        } = call
+        else {
+            return Err(Refused);
+        };
+        let function = *function;
+        if let Some(id) = variable_of(lowering, call) {
+            return self.variables.get(&id).copied().flatten().ok_or(Refused);
+        }
+        let ground = lowering.ground;
+        let dataset = lowering.dataset;
+        let marker = |id: Option<u32>| {
+            id.and_then(|id| dataset.markers.position(id))
+                .unwrap_or(ground)
+        };
+        if let Some(measure) = lowering.measures.of_call(function, arguments, marker) {
+            let order = lowering.measures.list()[measure].quantity.order();
+            let allowed = match self.reads {
+                Reads::Time => false,
+                Reads::Displacements => order == Order::Displacement,
+                Reads::Velocities => order != Order::Acceleration,
+                Reads::Everything => true,
+            };
+            return if allowed {
+                Ok(self.program.push(Operation::Input(Input::Measure(measure))))
+            } else {
+                Err(self.refuse_order(lowering, call))
+            };
+        }
+        if let Some(source) = ResultSource::of_call(lowering, function, arguments) {
+            if self.reads != Reads::Everything {
+                return Err(self.refuse_order(lowering, call));
+            }
+            return Ok(self.result(lowering, source));
+        }
+        let of_numbers =
+            (0..arguments.len()).all(|k| function.argument_kind(k) == ArgumentKind::Real);
+        if !of_numbers {
+            return Err(self.refuse_function(lowering, call));
+        }
+        let mut values = Vec::with_capacity(arguments.len());
+        for argument in arguments {
+            values.push(self.expr(lowering, argument)?);
+        }
+        self.mathematics(function, &values)
+            .ok_or_else(|| self.refuse_function(lowering, call))
+    }
+
+    /// A value that is known only once an instant has been solved.
+    pub(super) fn result(&mut self, lowering: &mut Lowering, source: ResultSource) -> Register {
+        lowering.results.push(source);
+        self.program
+            .push(Operation::Input(Input::Result(lowering.results.len() - 1)))
+    }
+
+    /// Reports a function that this element may not read.
+    fn refuse_order(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
+        let Expr::Call { function, span, .. } = call else {
+            return Refused;
+        };
+        let may = match self.reads {
+            Reads::Time => "TIME only",
+            Reads::Displacements => "TIME and displacements only",
+            Reads::Velocities | Reads::Everything => "TIME, displacements and velocities only",
+        };
+        let message = format!(
+            "{} reads {}, but it may read {may}",
+            self.owner,
+            function.name()
+        );
+        lowering.error(Code::UnsupportedArgument, *span, message, None);
+        Refused
+    }
+
+    /// Reports a function that is not simulated.
+    fn refuse_function(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
+        let Expr::Call { function, span, .. } = call else {
+            return Refused;
+        };
+        let message = format!(
+            "{}: the function {} is not simulated yet",
+            self.owner,
+            function.name()
+        );
+        lowering.error(Code::UnsupportedArgument, *span, message, None);
+        Refused
+    }
+
+    fn unary(&mut self, function: Unary, value: Register) -> Register {
+        self.program.push(Operation::Unary(function, value))
+    }
+
+    fn binary(&mut self, function: Binary, a: Register, b: Register) -> Register {
+        self.program.push(Operation::Binary(function, a, b))
+    }
+
+    /// The table of the functions of numbers.
+    fn mathematics(&mut self, function: Function, x: &[Register]) -> Option<Register> {
+        use Function as F;
+        Some(match function {
+            F::Abs => self.unary(Unary::Abs, x[0]),
+            F::Acos => self.unary(Unary::Acos, x[0]),
+            F::Aint => self.unary(Unary::Truncate, x[0]),
+            F::Anint => self.unary(Unary::Round, x[0]),
+            F::Asin => self.unary(Unary::Asin, x[0]),
+            F::Atan => self.unary(Unary::Atan, x[0]),
+            F::Cos => self.unary(Unary::Cos, x[0]),
+            F::Cosh => self.unary(Unary::Cosh, x[0]),
+            F::Exp => self.unary(Unary::Exp, x[0]),
+            F::Log => self.unary(Unary::Log, x[0]),
+            F::Log10 => self.unary(Unary::Log10, x[0]),
+            F::Sin => self.unary(Unary::Sin, x[0]),
+            F::Sinh => self.unary(Unary::Sinh, x[0]),
+            F::Sqrt => self.unary(Unary::Sqrt, x[0]),
+            F::Tan => self.unary(Unary::Tan, x[0]),
+            F::Tanh => self.unary(Unary::Tanh, x[0]),
+            F::Atan2 => self.binary(Binary::Atan2, x[0], x[1]),
+            F::Max => self.binary(Binary::Max, x[0], x[1]),
+            F::Min => self.binary(Binary::Min, x[0], x[1]),
+            F::Mod => self.binary(Binary::Modulo, x[0], x[1]),
+            F::Sign => self.binary(Binary::Sign, x[0], x[1]),
+            F::Dim => composite::dim(&mut self.program, x[0], x[1]),
+            F::If => self.program.push(Operation::Select(x[0], x[1], x[2], x[3])),
+            F::Step => composite::step(&mut self.program, Unary::CubicStep, x),
+            F::Step5 => composite::step(&mut self.program, Unary::QuinticStep, x),
+            F::Havsin => composite::step(&mut self.program, Unary::Haversine, x),
+            F::Impact => composite::impact(&mut self.program, x),
+            F::Bistop => composite::bistop(&mut self.program, x),
+            F::Poly => composite::polynomial(&mut self.program, x),
+            F::Cheby => composite::chebyshev(&mut self.program, x),
+            F::Forsin => composite::fourier(&mut self.program, Unary::Sin, x),
+            F::Forcos => composite::fourier(&mut self.program, Unary::Cos, x),
+            F::Shf => composite::harmonic(&mut self.program, x),
+            _ => return None,
+        })
+    }
+}
+
+/// The variable that a call stands for: VARVAL, PINVAL or POUVAL.
+fn variable_of(lowering: &Lowering, call: &Expr) -> Option<u32> {
+    let Expr::Call {
+        function,
+        arguments,
+        ..
+    } = call
+    else {
+        return None;
+    };
+    let id = arguments.first()?.as_id()?;
+    let port = match function {
+        Function::Varval => return Some(id),
+        Function::Pinval => lowering.dataset.plant_inputs.by_id(id)?,
+        Function::Pouval => lowering.dataset.plant_outputs.by_id(id)?,
+        _ => return None,
+    };
+    let number = arguments.get(1)?.as_id()?.checked_sub(1)?;
+    port.variables.get(number as usize).copied()
+}
+
+fn variables_of(lowering: &Lowering, root: &Expr) -> Vec<u32> {
+    let mut found = Vec::new();
+    root.visit(&mut |node| found.extend(variable_of(lowering, node)));
+    found
+}
+
+impl Lowering<'_> {
+    /// The program of one function of an element.
+    pub(super) fn function(
+        &mut self,
+        element: &impl Element,
+        statement: &str,
+        reads: Reads,
+        expression: &Expression,
+    ) -> Option<Program> {
+        let mut compiler = Compiler::new(reads);
+        let owner = format!("{statement}/{}", element.header().id);
+        let value = compiler.add(self, &owner, expression).ok()?;
+        let mut program = compiler.program;
+        // The value of a program is that of its last operation.
+        if value as usize + 1 != program.len() {
+            let zero = program.push(Operation::Constant(0.0));
+            program.push(Operation::Binary(Binary::Add, value, zero));
+        }
+        Some(program)
+    }
+}

@@ -1,0 +1,176 @@
+//! Functions whose value is part of the solution: reactions, forces and friction.
+
+use dataset::{Expr, Function};
+use mechanics::Owner;
+use nalgebra::Vector3;
+
+use super::Lowering;
+use crate::wrenches::Wrenches;
+
+/// An element that applies a force and a torque between two markers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ForceElement {
+    /// A joint, primitive or motion.
+    Constraint(Owner),
+    /// A single-component force or spring-damper, by its place among the model's forces.
+    Applied(usize),
+    /// Friction, by its place among the model's frictions.
+    Friction(usize),
+}
+
+/// On which of its two markers an element's force is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// On the part of I, about the origin of I.
+    I,
+    /// On the part of J, about the origin of J.
+    J,
+}
+
+/// Where a result that an output reads comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ResultSource {
+    /// Component 0 to 7 (FM FX FY FZ TM TX TY TZ) of one element along the axes of a marker.
+    Element {
+        /// The element.
+        element: ForceElement,
+        /// On which side.
+        side: Side,
+        /// Which component.
+        component: usize,
+        /// Marker whose axes resolve.
+        axes: usize,
+    },
+    /// The same of everything that acts at marker i between it and marker j; with `j` ground also
+    /// of the forces that act on i alone.
+    Between {
+        /// Marker on which the force acts.
+        i: usize,
+        /// The other marker.
+        j: usize,
+        /// Which component.
+        component: usize,
+        /// Marker whose axes resolve.
+        axes: usize,
+    },
+    /// Component 0 to 25 of a friction, in the order of the `.res`.
+    Friction {
+        /// Its place among the model's frictions.
+        friction: usize,
+        /// Which component.
+        component: usize,
+    },
+}
+
+impl ResultSource {
+    /// The result that a call stands for; `None` where it stands for none.
+    pub(super) fn of_call(
+        lowering: &Lowering,
+        function: Function,
+        arguments: &[Expr],
+    ) -> Option<Self> {
+        use Function as F;
+        let dataset = lowering.dataset;
+        let number = |k: usize| arguments.get(k).and_then(Expr::as_id);
+        let marker = |k: usize| lowering.marker_place(number(k).unwrap_or(0));
+        let between = |component, axes| {
+            Some(Self::Between {
+                i: marker(0),
+                j: marker(1),
+                component,
+                axes,
+            })
+        };
+        let element = match function {
+            F::Fm => return between(0, lowering.ground),
+            F::Fx => return between(1, marker(2)),
+            F::Fy => return between(2, marker(2)),
+            F::Fz => return between(3, marker(2)),
+            F::Tm => return between(4, lowering.ground),
+            F::Tx => return between(5, marker(2)),
+            F::Ty => return between(6, marker(2)),
+            F::Tz => return between(7, marker(2)),
+            F::Friction => {
+                let component = number(1)?.checked_sub(1).filter(|c| *c < 26)? as usize;
+                let friction = dataset.frictions.position(number(0)?)?;
+                return Some(Self::Friction {
+                    friction,
+                    component,
+                });
+            }
+            F::Joint => {
+                let joint = dataset.joints.position(number(0)?)?;
+                ForceElement::Constraint(Owner::Joint(joint))
+            }
+            F::Jprim => {
+                let primitive = dataset.primitives.position(number(0)?)?;
+                ForceElement::Constraint(Owner::Joint(dataset.joints.len() + primitive))
+            }
+            F::Motion => {
+                let motion = dataset.motions.position(number(0)?)?;
+                ForceElement::Constraint(Owner::Motion((*lowering.motions.get(motion)?)?))
+            }
+            F::Sforce => ForceElement::Applied(dataset.single_forces.position(number(0)?)?),
+            F::Spdp => {
+                let spring = dataset.spring_dampers.position(number(0)?)?;
+                ForceElement::Applied(dataset.single_forces.len() + spring)
+            }
+            _ => return None,
+        };
+        let side = match number(1)? {
+            0 => Side::I,
+            1 => Side::J,
+            _ => return None,
+        };
+        let component = number(2)?.checked_sub(1).filter(|c| *c < 8)? as usize;
+        Some(Self::Element {
+            element,
+            side,
+            component,
+            axes: marker(3),
+        })
+    }
+
+    /// Its value at a solved instant.
+    pub(crate) fn value(&self, instant: &Wrenches) -> f64 {
+        match *self {
+            Self::Element {
+                element,
+                side,
+                component,
+                axes,
+            } => {
+                let wrench = instant.of(element, side);
+                resolved(wrench.force, wrench.torque, component, instant, axes)
+            }
+            Self::Between {
+                i,
+                j,
+                component,
+                axes,
+            } => {
+                let wrench = instant.between(i, j);
+                resolved(wrench.force, wrench.torque, component, instant, axes)
+            }
+            Self::Friction {
+                friction,
+                component,
+            } => instant.friction(friction)[component],
+        }
+    }
+}
+
+/// Component 0 to 7 (FM FX FY FZ TM TX TY TZ) of a force and a torque along the axes of a marker.
+fn resolved(
+    force: Vector3<f64>,
+    torque: Vector3<f64>,
+    component: usize,
+    instant: &Wrenches,
+    axes: usize,
+) -> f64 {
+    let vector = if component < 4 { force } else { torque };
+    match component % 4 {
+        0 => vector.norm(),
+        axis => vector.dot(&instant.marker(axes).axis(axis - 1)),
+    }
+}

@@ -1,0 +1,152 @@
+//! Writes the rows of results while a simulation runs.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use mechanics::{Observer, Snapshot, StepReport};
+use results::{DataKind, ReqWriter, ResWriter, StepRow, WriteError};
+
+use crate::channels::{Channels, Row};
+use crate::journal::Journal;
+use crate::lower::Outputs;
+use crate::report::{self, FrictionReport};
+use crate::session::{OutputError, Progress, Watch};
+
+/// Why writing stops a run.
+pub(crate) enum Stop {
+    /// A file cannot be written.
+    Output(OutputError),
+    /// A value is not a finite number.
+    NotFinite(String),
+}
+
+/// The files of results and what a row needs.
+pub(crate) struct Recorder<W: Write> {
+    pub(crate) res: ResWriter<W>,
+    pub(crate) req: ReqWriter<W>,
+    /// Paths of `.res`, `.req` and `.msg`.
+    pub(crate) files: Vec<PathBuf>,
+    pub(crate) channels: Channels,
+    pub(crate) outputs: Outputs,
+    pub(crate) row: Row,
+    pub(crate) frictions: Vec<FrictionReport>,
+    /// Rows written after the initial conditions.
+    pub(crate) count: usize,
+}
+
+impl<W: Write> Recorder<W> {
+    fn path(&self, place: usize) -> String {
+        self.files
+            .get(place)
+            .map(|path| path.display().to_string())
+            .unwrap_or_default()
+    }
+
+    fn res_error(&self, error: &WriteError) -> OutputError {
+        OutputError::new(self.path(0), error)
+    }
+
+    /// The block that stands for the model as given: zeros, as in Adams.
+    pub(crate) fn model_input(&mut self) -> Result<(), OutputError> {
+        let zeros = vec![0.0; self.channels.layout().value_count()];
+        let written = self.res.begin_data(DataKind::ModelInput);
+        let written = written.and_then(|()| self.res.step(0.0, &zeros));
+        written.map_err(|error| self.res_error(&error))
+    }
+
+    /// Begins a block of rows.
+    pub(crate) fn begin(&mut self, kind: DataKind) -> Result<(), OutputError> {
+        self.res
+            .begin_data(kind)
+            .map_err(|error| self.res_error(&error))
+    }
+
+    /// The assembled model at its start.
+    pub(crate) fn initial(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
+        self.begin(DataKind::InitialConditions)
+            .map_err(Stop::Output)?;
+        self.write(snapshot)
+    }
+
+    /// A row at an output time.
+    fn output(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
+        self.write(snapshot)?;
+        self.count += 1;
+        Ok(())
+    }
+
+    fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
+        self.channels.fill(&self.outputs, snapshot, &mut self.row);
+        if let Some(column) = self.row.values.iter().position(|value| !value.is_finite()) {
+            let name = self.channels.layout().name_of(column).unwrap_or_default();
+            let time = snapshot.time();
+            return Err(Stop::NotFinite(format!(
+                "the result {name} is not a finite number at time {time}"
+            )));
+        }
+        report::add(&mut self.frictions, snapshot);
+        let time = snapshot.time();
+        let written = self.res.step(time, &self.row.values);
+        written.map_err(|error| Stop::Output(self.res_error(&error)))?;
+        let written = self.req.step(time, &self.row.requests);
+        written.map_err(|error| Stop::Output(OutputError::new(self.path(1), &error)))
+    }
+}
+
+/// Takes steps and outputs of a simulation to the files.
+pub(crate) struct Observe<'a, W: Write> {
+    pub(crate) recorder: &'a mut Recorder<W>,
+    pub(crate) log: &'a mut Journal<W>,
+    pub(crate) watch: &'a mut dyn Watch,
+    /// When the run began.
+    pub(crate) started: Instant,
+    /// End of the last simulation of the run.
+    pub(crate) end: f64,
+    /// Time from which the next row of the integrator's table is due.
+    pub(crate) next_row: f64,
+    pub(crate) row_interval: f64,
+    /// Set when writing stops the run.
+    pub(crate) stop: Option<Stop>,
+    /// Set when the watch stops the run.
+    pub(crate) interrupted: bool,
+}
+
+impl<W: Write> Observer for Observe<'_, W> {
+    fn step(&mut self, report: &StepReport) -> bool {
+        if report.time >= self.next_row {
+            let row = StepRow {
+                time: report.time,
+                step: report.size,
+                evaluations: report.statistics.work.residuals as u64,
+                steps: report.statistics.steps.steps as u64,
+                order: report.order as u32,
+                elapsed: self.started.elapsed().as_secs_f64(),
+            };
+            self.next_row = report.time + self.row_interval;
+            if let Err(error) = self.log.step_row(&row) {
+                self.stop = Some(Stop::Output(error));
+                return false;
+            }
+        }
+        let progress = Progress {
+            time: report.time,
+            end: self.end,
+            statistics: report.statistics,
+        };
+        self.interrupted = !self.watch.progress(&progress);
+        !self.interrupted
+    }
+
+    fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
+        let written = self.recorder.output(snapshot);
+        let warned = written.and_then(|()| self.log.watch_overlap(snapshot).map_err(Stop::Output));
+        match warned {
+            Ok(()) => true,
+            Err(stop) => {
+                self.stop = Some(stop);
+                false
+            }
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! INTEGRATOR and SIMULATE to settings and output times; what is not honoured is listed.
+
+use dataset::{IndexReduction, Integrator, IntegratorMethod, Simulate};
+use mechanics::{Formulation, Settings};
+
+/// Error tolerance without an INTEGRATOR statement.
+const OWN_ERROR: f64 = 1e-6;
+/// Highest order of the formulas that are stable enough to be used.
+const HIGHEST_ORDER: u32 = 5;
+/// Output steps of a SIMULATE with neither STEPS nor DTOUT.
+const DEFAULT_STEPS: u32 = 50;
+/// More outputs than this in one simulation are refused.
+const MOST_OUTPUTS: f64 = 1e7;
+
+/// How a simulation is integrated, and what to tell about it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Choice {
+    pub(crate) settings: Settings,
+    /// What differs from what the dataset says or leaves open.
+    pub(crate) notes: Vec<String>,
+}
+
+/// Settings of a simulation with outputs every `output_step`; `error` overrides the tolerance.
+///
+/// Defaults are those of Adams (I3, error 1e-3, HMAX of one output step, HMIN of 1e-6 HMAX,
+/// KMAX 6, MAXIT 10), except that without any INTEGRATOR statement it is SI2 with error 1e-6.
+pub(crate) fn choose(
+    integrator: Option<&Integrator>,
+    output_step: f64,
+    error: Option<f64>,
+) -> Choice {
+    let mut notes = Vec::new();
+    let fallback = Integrator::default();
+    if integrator.is_none() {
+        notes.push(format!(
+            "no INTEGRATOR statement: stabilised index 2 (SI2) with error {:e} is used",
+            error.unwrap_or(OWN_ERROR)
+        ));
+    }
+    let given = integrator.unwrap_or(&fallback);
+    let formulation = match given.formulation {
+        None if integrator.is_none() => Formulation::Si2,
+        None | Some(IndexReduction::I3) => Formulation::I3,
+        Some(IndexReduction::Si2) => Formulation::Si2,
+        Some(IndexReduction::Si1) => {
+            notes.push("SI1 is not available: SI2 is used".to_owned());
+            Formulation::Si2
+        }
+    };
+    let method = given.method.unwrap_or(IntegratorMethod::Gstiff);
+    if method != IntegratorMethod::Gstiff {
+        notes.push(format!(
+            "{} is not available: backward differences of variable order (as GSTIFF) are used",
+            method.keyword()
+        ));
+    }
+    let default_error = match method {
+        _ if integrator.is_none() => OWN_ERROR,
+        IntegratorMethod::Hht | IntegratorMethod::Newmark => 1e-5,
+        _ => 1e-3,
+    };
+    let highest_order = given.kmax.unwrap_or(6).clamp(1, HIGHEST_ORDER);
+    if let Some(kmax) = given.kmax.filter(|kmax| *kmax > HIGHEST_ORDER) {
+        notes.push(format!("KMAX={kmax}: the highest order is {HIGHEST_ORDER}"));
+    }
+    let longest_step = given.hmax.unwrap_or(output_step);
+    let not_honoured = not_honoured(given);
+    if !not_honoured.is_empty() {
+        notes.push(format!(
+            "INTEGRATOR: without effect here: {}",
+            not_honoured.join(", ")
+        ));
+    }
+    let settings = Settings {
+        formulation,
+        error: error.or(given.error).unwrap_or(default_error),
+        highest_order: highest_order as usize,
+        longest_step,
+        shortest_step: given.hmin.unwrap_or(1e-6 * longest_step),
+        first_step: given.hinit,
+        newton_iterations: given.maxit.unwrap_or(10) as usize,
+    };
+    Choice { settings, notes }
+}
+
+/// Arguments that are given and do nothing.
+fn not_honoured(given: &Integrator) -> Vec<&'static str> {
+    let arguments = [
+        ("HRATIO", given.hratio.is_some()),
+        ("FIXIT", given.fixit.is_some()),
+        ("PATTERN", given.pattern.is_some()),
+        ("CORRECTOR", given.corrector.is_some()),
+        ("INTERPOLATE", given.interpolate.is_some()),
+        ("ADAPTIVITY", given.adaptivity.is_some()),
+        ("ALPHA", given.alpha.is_some()),
+        ("BETA", given.beta.is_some()),
+        ("GAMMA", given.gamma.is_some()),
+    ];
+    arguments
+        .into_iter()
+        .filter_map(|(name, given)| given.then_some(name))
+        .collect()
+}
+
+/// Output times of a simulation, rising, the last exactly its end.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Outputs {
+    pub(crate) times: Vec<f64>,
+    /// Time between two of them (the last interval may be shorter).
+    pub(crate) step: f64,
+    pub(crate) notes: Vec<String>,
+}
+
+/// Output times `start + k·step` of a SIMULATE, the last exactly its end.
+///
+/// # Errors
+/// What is wrong with them, in words.
+pub(crate) fn outputs(simulate: &Simulate, start: f64) -> Result<Outputs, String> {
+    let end = match (simulate.end, simulate.duration) {
+        (Some(end), _) => end,
+        (None, Some(duration)) => start + duration,
+        (None, None) => return Err("SIMULATE needs END or DURATION".to_owned()),
+    };
+    if !(end > start) {
+        return Err(format!(
+            "the simulation would end at {end}, but it is {start} already"
+        ));
+    }
+    let mut notes = Vec::new();
+    let step = match (simulate.steps, simulate.dtout) {
+        (_, Some(dtout)) => dtout.min(end - start),
+        (Some(steps), None) => (end - start) / f64::from(steps),
+        (None, None) => {
+            notes.push(format!(
+                "neither STEPS nor DTOUT is given: STEPS={DEFAULT_STEPS} is used"
+            ));
+            (end - start) / f64::from(DEFAULT_STEPS)
+        }
+    };
+    // An interval that is whole but for rounding is not split.
+    let count = ((end - start) / step - 1e-9).ceil().max(1.0);
+    if !(count <= MOST_OUTPUTS) {
+        return Err(format!(
+            "{count} outputs are too many; at most {MOST_OUTPUTS} are written"
+        ));
+    }
+    let mut times: Vec<f64> = (1..count as usize)
+        .map(|k| start + k as f64 * step)
+        .collect();
+    times.push(end);
+    Ok(Outputs { times, step, notes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dataset::SimulationKind;
+
+    fn simulate(end: f64, steps: Option<u32>, dtout: Option<f64>) -> Simulate {
+        Simulate {
+            kind: SimulationKind::Dynamic,
+            end: Some(end),
+            duration: None,
+            steps,
+            dtout,
+        }
+    }
+
+    #[test]
+    fn the_last_output_is_the_end() {
+        let times = outputs(&simulate(0.25, None, Some(0.1)), 0.0)
+            .unwrap()
+            .times;
+        assert_eq!(times, [0.1, 0.2, 0.25]);
+        let times = outputs(&simulate(0.3, None, Some(0.1)), 0.0).unwrap().times;
+        assert_eq!(times, [0.1, 0.2, 0.3]);
+        let times = outputs(&simulate(2.0, Some(4), None), 1.0).unwrap().times;
+        assert_eq!(times, [1.25, 1.5, 1.75, 2.0]);
+        assert!(outputs(&simulate(1.0, Some(4), None), 1.0).is_err());
+        assert!(outputs(&simulate(1.0, None, Some(1e-12)), 0.0).is_err());
+    }
+
+    #[test]
+    fn settings_follow_the_statement_and_its_defaults() {
+        let own = choose(None, 0.01, None);
+        assert_eq!(own.settings.formulation, Formulation::Si2);
+        assert_eq!(own.settings.error, 1e-6);
+        assert_eq!(own.settings.longest_step, 0.01);
+        assert_eq!(own.notes.len(), 1);
+        let given = Integrator {
+            method: Some(IntegratorMethod::Hht),
+            kmax: Some(6),
+            hmin: Some(1e-9),
+            pattern: Some(vec![true]),
+            ..Integrator::default()
+        };
+        let chosen = choose(Some(&given), 0.01, None);
+        assert_eq!(chosen.settings.formulation, Formulation::I3);
+        assert_eq!(chosen.settings.error, 1e-5);
+        assert_eq!(chosen.settings.highest_order, 5);
+        assert_eq!(chosen.settings.shortest_step, 1e-9);
+        assert_eq!(chosen.notes.len(), 3);
+        assert_eq!(choose(Some(&given), 0.01, Some(1e-4)).settings.error, 1e-4);
+    }
+}

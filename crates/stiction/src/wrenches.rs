@@ -1,0 +1,187 @@
+//! Forces and torques of every element at a solved instant.
+
+use friction::Regime;
+use mechanics::model::{ForceKind, FrictionJoint};
+use mechanics::state::MarkerFrame;
+use mechanics::{FrictionValues, Owner, Snapshot, Wrench};
+use nalgebra::Vector3;
+
+use crate::lower::{ForceElement, Side};
+
+/// Forces and torques on the part of marker I, about its origin, along ground axes, each computed
+/// once an instant.
+pub(crate) struct Wrenches<'a> {
+    snapshot: &'a Snapshot<'a>,
+    joints: Vec<Wrench>,
+    motions: Vec<Wrench>,
+    forces: Vec<Wrench>,
+    frictions: Vec<FrictionValues>,
+}
+
+impl<'a> Wrenches<'a> {
+    /// All of them.
+    pub(crate) fn new(snapshot: &'a Snapshot<'a>) -> Self {
+        let model = snapshot.model();
+        let reaction = |owner: fn(usize) -> Owner, count: usize| {
+            (0..count)
+                .map(|place| snapshot.reaction(owner(place)))
+                .collect()
+        };
+        Self {
+            joints: reaction(Owner::Joint, model.joints.len()),
+            motions: reaction(Owner::Motion, model.motions.len()),
+            forces: (0..model.forces.len())
+                .map(|place| snapshot.applied(place))
+                .collect(),
+            frictions: (0..model.frictions.len())
+                .map(|k| snapshot.friction(k))
+                .collect(),
+            snapshot,
+        }
+    }
+
+    /// Frame of a marker.
+    pub(crate) fn marker(&self, place: usize) -> MarkerFrame {
+        self.snapshot.marker(place)
+    }
+
+    /// On the part of I, about I.
+    pub(crate) fn on_i(&self, element: ForceElement) -> Wrench {
+        match element {
+            ForceElement::Constraint(Owner::Joint(joint)) => self.joints[joint],
+            ForceElement::Constraint(Owner::Motion(motion)) => self.motions[motion],
+            // A general constraint acts between no two markers.
+            ForceElement::Constraint(Owner::General(_)) => Wrench::default(),
+            ForceElement::Applied(force) => self.forces[force],
+            ForceElement::Friction(friction) => self.friction_on_i(friction),
+        }
+    }
+
+    /// On the part of one side, about the origin of its marker.
+    pub(crate) fn of(&self, element: ForceElement, side: Side) -> Wrench {
+        let wrench = self.on_i(element);
+        let Side::J = side else { return wrench };
+        let (i, j, on_both) = self.markers(element);
+        if !on_both {
+            return Wrench::default();
+        }
+        let arm = self.marker(i).origin - self.marker(j).origin;
+        Wrench {
+            force: -wrench.force,
+            torque: -(wrench.torque + arm.cross(&wrench.force)),
+        }
+    }
+
+    /// Everything that acts at marker `i` between it and marker `j`; with `j` the implicit ground
+    /// marker (the last one) the forces that act on I alone.
+    pub(crate) fn between(&self, i: usize, j: usize) -> Wrench {
+        let model = self.snapshot.model();
+        let alone = j + 1 == model.markers.len();
+        let constraints = (0..model.joints.len()).map(Owner::Joint);
+        let constraints = constraints.chain((0..model.motions.len()).map(Owner::Motion));
+        let elements = constraints
+            .map(ForceElement::Constraint)
+            .chain((0..model.forces.len()).map(ForceElement::Applied))
+            .chain((0..model.frictions.len()).map(ForceElement::Friction));
+        let mut sum = Wrench::default();
+        for element in elements {
+            let (own_i, own_j, on_both) = self.markers(element);
+            let side = if own_i == i && (own_j == j || alone && !on_both) {
+                Side::I
+            } else if own_i == j && own_j == i {
+                Side::J
+            } else {
+                continue;
+            };
+            let wrench = self.of(element, side);
+            sum.force += wrench.force;
+            sum.torque += wrench.torque;
+        }
+        sum
+    }
+
+    /// Markers I and J of an element, and whether it acts on both.
+    fn markers(&self, element: ForceElement) -> (usize, usize, bool) {
+        let model = self.snapshot.model();
+        match element {
+            ForceElement::Constraint(Owner::Joint(place)) => {
+                (model.joints[place].i, model.joints[place].j, true)
+            }
+            ForceElement::Constraint(Owner::Motion(place)) => {
+                (model.motions[place].i, model.motions[place].j, true)
+            }
+            ForceElement::Constraint(Owner::General(_)) => (usize::MAX, usize::MAX, true),
+            ForceElement::Applied(place) => {
+                let force = &model.forces[place];
+                let on_both = matches!(force.kind, ForceKind::LineOfSight | ForceKind::AboutZ);
+                (force.i, force.j, on_both)
+            }
+            ForceElement::Friction(place) => {
+                let joint = &model.joints[model.frictions[place].joint];
+                (joint.i, joint.j, true)
+            }
+        }
+    }
+
+    /// Friction as a force and torque on I, ground axes.
+    fn friction_on_i(&self, place: usize) -> Wrench {
+        let (values, j) = (&self.frictions[place], self.joint_axes(place));
+        let z = j.axis(2);
+        match self.snapshot.model().frictions[place].load {
+            FrictionJoint::Translational(_) => Wrench {
+                force: values.force[0] * z,
+                torque: Vector3::zeros(),
+            },
+            FrictionJoint::Revolute(_) => Wrench {
+                force: Vector3::zeros(),
+                torque: values.force[0] * z,
+            },
+            FrictionJoint::Spherical(_) => Wrench {
+                force: Vector3::zeros(),
+                torque: j.axes * Vector3::from(values.force),
+            },
+        }
+    }
+
+    fn joint_axes(&self, friction: usize) -> MarkerFrame {
+        let model = self.snapshot.model();
+        self.marker(model.joints[model.frictions[friction].joint].j)
+    }
+
+    /// The 26 components of a friction in the order of the `.res`: force and torque along the axes
+    /// of J; of a spherical joint coefficient, surface velocity and creep along the axes of I as
+    /// they stood, relative to J, where the stick began (as they stand while it slides).
+    pub(crate) fn friction(&self, place: usize) -> [f64; 26] {
+        let values = &self.frictions[place];
+        let mut row = [0.0; 26];
+        // Places of force, coefficient, velocity and creep: translational, or three further.
+        let starts = [0, 6, 13, 19];
+        let vectors = [values.force, values.mu, values.velocity, values.creep];
+        match self.snapshot.model().frictions[place].load {
+            FrictionJoint::Translational(_) => {
+                for (start, vector) in starts.iter().zip(vectors) {
+                    row[start + 2] = vector[0];
+                }
+            }
+            FrictionJoint::Revolute(_) => {
+                for (start, vector) in starts.iter().zip(vectors) {
+                    row[start + 5] = vector[0];
+                }
+            }
+            FrictionJoint::Spherical(_) => {
+                row[3..6].copy_from_slice(&values.force);
+                for (start, vector) in starts.iter().zip(vectors).skip(1) {
+                    let along_i = values.anchor.transpose() * Vector3::from(vector);
+                    row[start + 3..start + 6].copy_from_slice(along_i.as_slice());
+                }
+            }
+        }
+        row[12] = if values.regime == Regime::Stuck {
+            values.mu1
+        } else {
+            0.0
+        };
+        row[25] = values.beta;
+        row
+    }
+}

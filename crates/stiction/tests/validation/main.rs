@@ -1,0 +1,10 @@
+//! The whole program against results of real Adams runs and independent references.
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures of the comparisons are what these tests show"
+)]
+
+mod debug;
+mod delta_robot;
+mod run;
+mod table;
