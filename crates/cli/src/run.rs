@@ -47,9 +47,6 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     let session = Session::new(&project).map_err(input)?;
     let folder = folder(arguments, &project)?;
-    for warning in session.warnings() {
-        complain(&warning.text);
-    }
     let inputs = record::inputs(&project);
     let mut monitor = Monitor::new(arguments.progress);
     let options = RunOptions {
@@ -122,7 +119,7 @@ fn tell(folder: &Path, report: &RunReport) {
         report.time, report.outputs, steps.steps, report.elapsed
     );
     if report.warnings > 0 {
-        text += &format!(", {} warnings in the .msg", report.warnings);
+        text += &format!(", {} warnings (see the .msg)", report.warnings);
     }
     text += &format!("\nresults in {}:", folder.display());
     for file in &report.files {

@@ -1,0 +1,5 @@
+//! Tests of the facade: datasets in, results out.
+
+mod adams;
+mod lowering;
+mod shared;
