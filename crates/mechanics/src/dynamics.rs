@@ -76,7 +76,7 @@ pub(crate) struct Scales {
 #[derive(Clone, Debug)]
 pub(crate) struct Dynamics {
     pub(crate) system: System,
-    pub(crate) formulation: Formulation,
+    formulation: Formulation,
     /// How constraints enter the present step.
     present: Formulation,
     /// Steps of SI2 that are still to be solved as I3.
@@ -107,13 +107,13 @@ pub(crate) struct Dynamics {
 }
 
 impl Dynamics {
-    pub(crate) fn new(system: System, formulation: Formulation, scales: Scales) -> Self {
+    pub(crate) fn new(system: System, scales: Scales) -> Self {
         let n = system.velocity_count();
         let size = n + system.row_count();
         let bodies = system.model.bodies.len();
         Self {
-            formulation,
-            present: formulation,
+            formulation: Formulation::Si2,
+            present: Formulation::Si2,
             index3_left: 0,
             tolerance: 1e-6,
             newton_iterations: 4,
@@ -139,6 +139,18 @@ impl Dynamics {
             rate: 0.0,
             system,
         }
+    }
+
+    /// Takes over the equations and history of `system`; its numbering must be that of before.
+    pub(crate) fn start(&mut self, system: &System, formulation: Formulation, scales: Scales) {
+        self.system.clone_from(system);
+        self.previous.clone_from(&system.history.frictions);
+        self.formulation = formulation;
+        self.present = formulation;
+        self.index3_left = 0;
+        self.scales = scales;
+        self.factored = None;
+        self.rate = 0.0;
     }
 
     /// Raises the rate scale to that of the present velocities.
@@ -328,24 +340,19 @@ impl Dynamics {
             if !norm.is_finite() {
                 break;
             }
-            if iteration > 0 {
-                self.rate = norm / f64::max(last, 1e-300);
-            }
-            let rate = if iteration == 0 {
-                self.rate.clamp(0.1, 0.9)
-            } else {
-                self.rate
-            };
-            if iteration > 0 && rate >= 1.0 && norm > NEWTON_TOLERANCE {
-                break;
-            }
-            let left = if rate < 1.0 {
-                norm * rate / (1.0 - rate)
-            } else {
-                norm
-            };
-            if left <= NEWTON_TOLERANCE || norm == 0.0 {
+            if norm == 0.0 {
                 return Ok(());
+            }
+            // The first correction says nothing about how fast the iteration converges, and the
+            // rate of an earlier step says nothing about a matrix that has gone stale since.
+            if iteration > 0 {
+                self.rate = norm / last;
+                if self.rate >= 1.0 && norm > NEWTON_TOLERANCE {
+                    break;
+                }
+                if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= NEWTON_TOLERANCE {
+                    return Ok(());
+                }
             }
             last = norm;
         }
@@ -383,7 +390,11 @@ impl bdf::System for Dynamics {
             .factored
             .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
         let mut renew = stale || self.rate > SLOW_RATE;
-        self.present = if self.index3_left > 0 { Formulation::I3 } else { self.formulation };
+        self.present = if self.index3_left > 0 {
+            Formulation::I3
+        } else {
+            self.formulation
+        };
         loop {
             let solved = self.load(step, y).map_err(|failure| (failure, true));
             match solved.and_then(|()| self.newton(step, renew)) {

@@ -196,8 +196,11 @@ impl Program {
         registers[self.operations.len() - 1]
     }
 
-    /// Calls `derivative(input, slope)` for every input that the value depends on, after
+    /// Calls `derivative(input, slope)` for every input of the program, after
     /// [`Program::evaluate`] has filled `registers`; `adjoints` is scratch of the same length.
+    ///
+    /// The calls are always the same in number and order, also where a slope is zero, so that a
+    /// matrix can be assembled from them.
     pub fn gradient(
         &self,
         registers: &[f64],
@@ -209,14 +212,16 @@ impl Program {
         adjoints[count - 1] = 1.0;
         for place in (0..count).rev() {
             let adjoint = adjoints[place];
+            if let Operation::Input(input) = self.operations[place] {
+                derivative(input, adjoint);
+            }
             // Branches that were not taken must not add 0 · ∞.
             if adjoint == 0.0 {
                 continue;
             }
             let at = |r: Register| registers[r as usize];
             match self.operations[place] {
-                Operation::Constant(_) => {}
-                Operation::Input(input) => derivative(input, adjoint),
+                Operation::Constant(_) | Operation::Input(_) => {}
                 Operation::Unary(function, a) => {
                     adjoints[a as usize] += adjoint * unary(function, at(a)).1;
                 }
@@ -528,6 +533,11 @@ mod tests {
         program.push(Operation::Select(x, one, one, root));
         let mut registers = [0.0; 4];
         assert_eq!(program.evaluate(&mut registers, |_| -4.0), 1.0);
-        program.gradient(&registers, &mut [0.0; 4], |_, slope| assert_eq!(slope, 0.0));
+        let mut calls = 0;
+        program.gradient(&registers, &mut [0.0; 4], |_, slope| {
+            assert_eq!(slope, 0.0);
+            calls += 1;
+        });
+        assert_eq!(calls, 1);
     }
 }

@@ -501,9 +501,18 @@ impl System {
         wrench
     }
 
-    /// Replaces parameters and functions; the numbering of equations and the history stay.
-    pub(crate) fn replace_model(&mut self, model: Model) {
+    /// Replaces parameters and functions; the numbering of equations and the history stay. Returns
+    /// whether the pattern of the Newton matrix stays, too.
+    pub(crate) fn replace_model(&mut self, model: Model) -> bool {
         let fresh = Self::new(model);
+        let inputs = |model: &Model| -> Vec<Input> {
+            model
+                .forces
+                .iter()
+                .flat_map(|force| force.function.inputs())
+                .collect()
+        };
+        let same_pattern = inputs(&fresh.model) == inputs(&self.model);
         let same = fresh.constraints.len() == self.constraints.len()
             && fresh.bodies.len() == self.bodies.len()
             && fresh.model.measures.len() == self.model.measures.len()
@@ -517,6 +526,7 @@ impl System {
         *self = fresh;
         self.set_active(&active);
         self.history = history;
+        same_pattern
     }
 
     /// Reaction of a friction's joint on I at marker I, along the axes of J.
