@@ -49,8 +49,26 @@ const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
 const SLOW_RATE: f64 = 0.1;
 
+/// Iterations with a matrix each, at least.
+const FULL_ITERATIONS: usize = 20;
+/// Corrections that may grow in such an iteration.
+const GROWTHS: usize = 5;
 /// Steps that are solved as I3 once SI2 has failed, so that a nearly singular position is behind.
 const INDEX3_STEPS: usize = 10;
+
+/// How an attempt at a step uses the Newton matrix.
+///
+/// Attempts go from cheap to sure. The friction law has a kink in the velocity at rest where there is
+/// creep, so that a matrix of one side may diverge on the other; one matrix an iteration converges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum MatrixUse {
+    /// The factors of an earlier step.
+    Kept,
+    /// New at the first iteration.
+    Renewed,
+    /// New at every iteration.
+    RenewedAlways,
+}
 
 /// Counts of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -285,28 +303,36 @@ impl Dynamics {
         norm / self.tolerance
     }
 
-    fn newton(&mut self, step: &bdf::Step<'_>, mut renew: bool) -> Result<(), (Failure, bool)> {
+    /// Newton's iteration from the loaded state, with the matrix used as `usage` says.
+    fn newton(&mut self, step: &bdf::Step<'_>, usage: MatrixUse) -> Result<(), Failure> {
         let gamma = step.gamma;
         let n = self.system.velocity_count();
         let rows = match self.present {
             Formulation::I3 => Rows::Position,
             Formulation::Si2 => Rows::Velocity,
         };
-        let fresh = renew;
-        let mut last = 0.0;
-        let mut worst = 0;
-        for iteration in 0..self.newton_iterations {
+        let (mut last, mut worst, mut growths) = (0.0, 0, 0);
+        let iterations = match usage {
+            MatrixUse::RenewedAlways => self.newton_iterations.max(FULL_ITERATIONS),
+            _ => self.newton_iterations,
+        };
+        for iteration in 0..iterations {
+            let renew = match usage {
+                MatrixUse::Kept => false,
+                MatrixUse::Renewed => iteration == 0,
+                MatrixUse::RenewedAlways => true,
+            };
             self.system.evaluate(&self.state, renew);
-            self.residual(step).map_err(|failure| (failure, fresh))?;
+            self.residual(step)?;
             if renew {
                 self.factored = None;
                 self.work.factorisations += 1;
                 self.system
                     .assemble(rows, gamma, &self.change, &self.trial, &mut self.matrix);
-                let factored = self.factors.factor(&self.matrix);
-                factored.map_err(|singular| (Failure::Singular(singular), true))?;
+                self.factors
+                    .factor(&self.matrix)
+                    .map_err(Failure::Singular)?;
                 self.factored = Some(gamma);
-                renew = false;
             }
             self.factors.solve(&mut self.right);
             for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
@@ -319,8 +345,7 @@ impl Dynamics {
                         self.state.velocities_mut()[k] += self.right[k];
                         self.shift[k] += self.position_right[k];
                     }
-                    self.positions_from_velocities(step)
-                        .map_err(|failure| (failure, fresh))?;
+                    self.positions_from_velocities(step)?;
                 }
                 Formulation::I3 => {
                     for k in 0..n {
@@ -348,7 +373,12 @@ impl Dynamics {
             if iteration > 0 {
                 self.rate = norm / last;
                 if self.rate >= 1.0 && norm > NEWTON_TOLERANCE {
-                    break;
+                    // With a matrix of its own in each iteration the kink may be crossed once or
+                    // twice before the iteration settles on one side.
+                    growths += 1;
+                    if usage != MatrixUse::RenewedAlways || growths > GROWTHS {
+                        break;
+                    }
                 }
                 if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= NEWTON_TOLERANCE {
                     return Ok(());
@@ -356,7 +386,7 @@ impl Dynamics {
             }
             last = norm;
         }
-        Err((Failure::NotConverged { unknown: worst }, fresh))
+        Err(Failure::NotConverged { unknown: worst })
     }
 
     fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
@@ -389,31 +419,39 @@ impl bdf::System for Dynamics {
         let stale = self
             .factored
             .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
-        let mut renew = stale || self.rate > SLOW_RATE;
+        let mut usage = if stale || self.rate > SLOW_RATE {
+            MatrixUse::Renewed
+        } else {
+            MatrixUse::Kept
+        };
         self.present = if self.index3_left > 0 {
             Formulation::I3
         } else {
             self.formulation
         };
         loop {
-            let solved = self.load(step, y).map_err(|failure| (failure, true));
-            match solved.and_then(|()| self.newton(step, renew)) {
-                Ok(()) => break,
-                Err((_, false)) => renew = true,
+            let solved = self.load(step, y);
+            let Err(failure) = solved.and_then(|()| self.newton(step, usage)) else {
+                break;
+            };
+            usage = match (usage, &failure) {
+                (MatrixUse::Kept, _) => MatrixUse::Renewed,
+                (MatrixUse::Renewed, Failure::NotConverged { .. }) => MatrixUse::RenewedAlways,
                 // Where the mechanism passes a position at which constraints depend on others,
                 // velocity constraints are nearly singular, positions alone are not.
-                Err((Failure::NotConverged { .. } | Failure::Singular(_), true))
+                (_, Failure::NotConverged { .. } | Failure::Singular(_))
                     if self.present == Formulation::Si2 =>
                 {
                     self.present = Formulation::I3;
                     self.index3_left = INDEX3_STEPS;
+                    MatrixUse::Renewed
                 }
-                Err((failure, true)) => {
+                _ => {
                     self.rate = 1.0;
                     self.factored = None;
                     return Err(failure);
                 }
-            }
+            };
         }
         if self.present != self.formulation {
             self.work.index3_steps += 1;
