@@ -7,6 +7,7 @@
 )]
 
 mod builder;
+mod friction_cases;
 mod frictionless;
 mod runs;
 mod shared;

@@ -1,9 +1,12 @@
-//! Frictionless linkages of the IFToMM library of benchmarks, with far more equations than needed.
+//! Linkages: two of the IFToMM library of benchmarks, with far more equations than needed, and two
+//! with friction.
 
-use mechanics::model::{JointKind, Model};
+use friction::{Inputs, Original, TranslationalLoad};
+use mechanics::model::{FrictionJoint, JointKind, Model};
 use nalgebra::Vector3;
 
 use crate::builder::{Builder, v};
+use crate::systems::turning::pin_load;
 
 /// A02: `loops` four-bar loops of rods of 1 m and 1 kg side by side, all joints revolute. The
 /// top moves at 1 m/s along x at first. Body `2 k` is the upright at x = k.
@@ -57,4 +60,71 @@ pub(crate) fn bricard() -> Model {
         b.joint(JointKind::Revolute, after, before, point, axis);
     }
     b.model
+}
+
+/// C01: crank 0.1 m, rod 0.3 m, slider along x; 1, 1.5 and 2 kg, weight along −y. The crank starts
+/// at 0.5 rad with 20 rad/s. Friction in the slider.
+pub(crate) fn slider_crank(law: Original) -> Model {
+    let mut b = Builder::new(v(0.0, -9.80665, 0.0));
+    let (crank, rod, angle) = (0.1, 0.3, 0.5_f64);
+    let knee = crank * v(angle.cos(), angle.sin(), 0.0);
+    let tip = v(knee.x + (rod * rod - knee.y * knee.y).sqrt(), 0.0, 0.0);
+    let first = b.rod(1.0, Vector3::zeros(), knee);
+    let second = b.rod(1.5, knee, tip);
+    let slider = b.body(2.0, [0.001; 3], tip);
+    let drive = b.pin(Some(first), None, Vector3::zeros());
+    b.start_turning(drive, 20.0);
+    b.pin(Some(second), Some(first), knee);
+    b.pin(Some(slider), Some(second), tip);
+    let guide = b.joint(
+        JointKind::Translational,
+        Some(slider),
+        None,
+        tip,
+        Vector3::x(),
+    );
+    let load = TranslationalLoad {
+        inputs: Inputs {
+            reaction_force: true,
+            ..Inputs::NONE
+        },
+        reaction_arm: 1.0,
+        bending_factor: 1.0,
+        initial_overlap: 1.0,
+        overlap_sign: 0.0,
+    };
+    b.friction(guide, law, FrictionJoint::Translational(load));
+    b.model
+}
+
+/// C02: four-bar of 0.1, 0.35, 0.3 on a base of 0.4 m; 1, 3.5 and 3 kg, weight along −y. The crank
+/// starts at 0.3 rad with 20 rad/s. Friction in all four pins of 15 mm radius.
+pub(crate) fn four_bar(law: Option<Original>) -> Model {
+    let mut b = Builder::new(v(0.0, -9.80665, 0.0));
+    let angle = 0.3_f64;
+    let (base, knee) = (v(0.4, 0.0, 0.0), 0.1 * v(angle.cos(), angle.sin(), 0.0));
+    let tip = corner(knee, 0.35, base, 0.3);
+    let crank = b.rod(1.0, Vector3::zeros(), knee);
+    let coupler = b.rod(3.5, knee, tip);
+    let rocker = b.rod(3.0, tip, base);
+    let drive = b.pin(Some(crank), None, Vector3::zeros());
+    b.start_turning(drive, 20.0);
+    b.pin(Some(coupler), Some(crank), knee);
+    b.pin(Some(rocker), Some(coupler), tip);
+    b.pin(Some(rocker), None, base);
+    for joint in 0..4 {
+        if let Some(law) = law {
+            b.friction(joint, law, pin_load(0.015, 1.0));
+        }
+    }
+    b.model
+}
+
+/// The point at distances `from_a` and `from_b`, left of the line from `a` to `b`.
+fn corner(a: Vector3<f64>, from_a: f64, b: Vector3<f64>, from_b: f64) -> Vector3<f64> {
+    let d = (b - a).norm();
+    let along = (d * d + from_a * from_a - from_b * from_b) / (2.0 * d);
+    let aside = (from_a * from_a - along * along).sqrt();
+    let e = (b - a) / d;
+    a + along * e + aside * Vector3::z().cross(&e)
 }

@@ -1,0 +1,94 @@
+//! Bodies that turn in a revolute or spherical joint with friction.
+
+use friction::{Inputs, Original, RevoluteLoad, SphericalLoad};
+use mechanics::model::{FrictionJoint, JointKind, Model};
+use mechanics::rotation::Quaternion;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::builder::{Builder, v};
+
+/// The load of a pin of the given radius by its reaction force alone.
+pub(crate) fn pin_load(pin_radius: f64, friction_arm: f64) -> FrictionJoint {
+    FrictionJoint::Revolute(RevoluteLoad {
+        inputs: Inputs {
+            bending_moment: false,
+            ..Inputs::ALL
+        },
+        pin_radius,
+        friction_arm,
+        bending_reaction_arm: 1.0,
+    })
+}
+
+/// 1 kg at `length` below a pin of radius `pin_radius`, swung out by `angle` about z and turning
+/// at `rate`; `inertia` is that of the centre of mass about z. The angle of the body is its
+/// rotation, so it starts at zero: the pendulum's angle is `angle` plus that.
+#[derive(Clone, Copy)]
+pub(crate) struct Pendulum {
+    pub(crate) length: f64,
+    pub(crate) pin_radius: f64,
+    pub(crate) inertia: f64,
+    pub(crate) gravity: f64,
+    pub(crate) angle: f64,
+    pub(crate) rate: f64,
+    pub(crate) law: Original,
+}
+
+impl Pendulum {
+    pub(crate) fn model(&self) -> Model {
+        let mut b = Builder::new(v(0.0, -self.gravity, 0.0));
+        let centre = self.length * v(self.angle.sin(), -self.angle.cos(), 0.0);
+        let body = b.body(1.0, [self.inertia; 3], centre);
+        let joint = b.pin(Some(body), None, Vector3::zeros());
+        b.spin(body, v(0.0, 0.0, self.rate), Vector3::zeros());
+        b.friction(joint, self.law, pin_load(self.pin_radius, 1.0));
+        b.model
+    }
+}
+
+/// A rotor on a vertical axis that carries its weight on a collar of radius `friction_arm`.
+pub(crate) fn rotor(
+    weight: f64,
+    inertia: f64,
+    pin_radius: f64,
+    friction_arm: f64,
+    rate: f64,
+    law: Original,
+) -> Model {
+    let mut b = Builder::new(v(0.0, 0.0, -weight));
+    let body = b.body(1.0, [inertia; 3], Vector3::zeros());
+    let joint = b.pin(Some(body), None, Vector3::zeros());
+    b.spin(body, v(0.0, 0.0, rate), Vector3::zeros());
+    b.friction(joint, law, pin_load(pin_radius, friction_arm));
+    b.model
+}
+
+/// 1 kg with its centre 0.5 m below a ball joint, inertia about the centre (0.02, 0.02, 0.005) in
+/// part axes, tilted by `tilt` about x, turning with `rates` along part axes; g = 9.80665 m/s².
+pub(crate) fn ball_pendulum(
+    tilt: f64,
+    rates: Vector3<f64>,
+    ball: Option<(Original, f64)>,
+) -> Model {
+    let mut b = Builder::new(v(0.0, 0.0, -9.80665));
+    let orientation = Quaternion::exp(&v(tilt, 0.0, 0.0));
+    let turn = orientation.matrix();
+    let inertia = Matrix3::from_diagonal(&v(0.02, 0.02, 0.005));
+    let body = b.turned_body(1.0, inertia, turn * v(0.0, 0.0, -0.5), orientation);
+    let joint = b.joint(
+        JointKind::Spherical,
+        Some(body),
+        None,
+        Vector3::zeros(),
+        Vector3::z(),
+    );
+    b.spin(body, turn * rates, Vector3::zeros());
+    if let Some((law, ball_radius)) = ball {
+        let load = SphericalLoad {
+            inputs: Inputs::ALL,
+            ball_radius,
+        };
+        b.friction(joint, law, FrictionJoint::Spherical(load));
+    }
+    b.model
+}
