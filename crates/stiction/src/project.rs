@@ -157,6 +157,35 @@ impl Project {
         });
     }
 
+    /// The model as mechanics simulates it, with the changes made so far; not assembled yet.
+    ///
+    /// For uses beyond a run: states of one's own, single instants, other integrations.
+    ///
+    /// # Errors
+    /// Everything that is not simulated, each with its place.
+    ///
+    /// ```no_run
+    /// let project = stiction::Project::load("pendulum.adm".as_ref())?;
+    /// let mut simulation = project.simulation()?;
+    /// let assembly = simulation.assemble().expect("the joints fit together");
+    /// println!("{} redundant equations", assembly.redundant.len());
+    /// # Ok::<(), stiction::InputError>(())
+    /// ```
+    pub fn simulation(&self) -> Result<mechanics::Simulation, InputError> {
+        let source = self.model_source();
+        let lowered = lower(&self.dataset, source.name(), &mut Measures::default());
+        let lowered = lowered.map_err(|diagnostics| InputError {
+            messages: diagnostics
+                .into_iter()
+                .map(|diagnostic| Message::new(diagnostic, source))
+                .collect(),
+        })?;
+        Ok(mechanics::Simulation::new(
+            lowered.model,
+            second(&self.dataset),
+        ))
+    }
+
     /// Lowers the model as given and after each change of the command file, so that everything
     /// that is not simulated is known before the run; returns the measures of all of them.
     ///
@@ -476,4 +505,10 @@ mod tests {
         assert_eq!(found, Path::new("here").join("arm.v2.adm"));
         assert_eq!(base_name("plain"), "plain");
     }
+}
+
+/// One second in the unit of time of a dataset.
+pub(crate) fn second(dataset: &Dataset) -> f64 {
+    let time = dataset.units.as_ref().and_then(|units| units.time);
+    time.map_or(1.0, |unit| 1.0 / unit.si())
 }

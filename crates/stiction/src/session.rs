@@ -12,7 +12,7 @@ use crate::channels::{Channels, Row, unit_names};
 use crate::journal::Journal;
 use crate::lower::{Lowered, Measures, lower};
 use crate::message::{InputError, Message};
-use crate::project::{Project, SourcedCommand};
+use crate::project::{Project, SourcedCommand, second};
 use crate::recorder::{Recorder, Stop};
 use crate::report::{self, FrictionReport};
 use crate::settings;
@@ -213,12 +213,7 @@ impl<'a> Runner<'a> {
         let (req, req_path, shown) = create("req")?;
         let req = ReqWriter::new(req, &dataset.title, None, &units, channels.requests())
             .map_err(|error| OutputError::new(&shown, &error))?;
-        let second = dataset
-            .units
-            .as_ref()
-            .and_then(|u| u.time)
-            .map_or(1.0, |t| 1.0 / t.si());
-        let simulation = Simulation::new(lowered.model.clone(), second);
+        let simulation = Simulation::new(lowered.model.clone(), second(&dataset));
         let frictions = report::reports(&simulation.snapshot(), &units);
         Ok(Self {
             session,

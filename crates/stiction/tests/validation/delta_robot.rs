@@ -51,7 +51,7 @@ fn replay_converges_to_the_reference() {
         return;
     };
     let mut last = f64::INFINITY;
-    for error in [1e-4, 1e-6, 1e-8] {
+    for error in [1e-4, 1e-6, 1e-9] {
         let ours = Table::from_results(&run(&commands, Some(error), &[]));
         let [position, velocity] = differences(&ours, &reference, |part| format!("P{part}_"), 1);
         println!(

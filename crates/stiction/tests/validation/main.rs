@@ -4,7 +4,7 @@
     reason = "the figures of the comparisons are what these tests show"
 )]
 
-mod debug;
 mod delta_robot;
+mod instants;
 mod run;
 mod table;

@@ -7,7 +7,9 @@ use results::ResFile;
 /// Named columns over rows in time.
 pub(crate) struct Table {
     columns: HashMap<String, usize>,
-    /// Rows, time first where the table has it first.
+    /// Time of each row.
+    pub(crate) times: Vec<f64>,
+    /// The rows.
     pub(crate) rows: Vec<Vec<f64>>,
 }
 
@@ -17,15 +19,24 @@ impl Table {
         let mut lines = text.lines().filter(|line| !line.starts_with('#'));
         let header = lines.next().expect("a table has a header");
         let columns = header.split(',').map(str::trim).map(str::to_owned);
-        let rows = lines
+        let rows: Vec<Vec<f64>> = lines
             .map(|line| {
                 line.split(',')
                     .map(|cell| cell.trim().parse().unwrap())
                     .collect()
             })
             .collect();
+        let columns: HashMap<String, usize> =
+            columns.enumerate().map(|(k, name)| (name, k)).collect();
+        let time = ["time", "t_s", "t", "Time"]
+            .into_iter()
+            .find_map(|name| columns.get(name));
+        let times = time.map_or(Vec::new(), |&time| {
+            rows.iter().map(|row| row[time]).collect()
+        });
         Self {
-            columns: columns.enumerate().map(|(k, name)| (name, k)).collect(),
+            columns,
+            times,
             rows,
         }
     }
@@ -34,7 +45,6 @@ impl Table {
     /// `Part/2.X` or `Friction/1.TX`.
     pub(crate) fn from_results(file: &ResFile) -> Self {
         let mut columns = HashMap::new();
-        columns.insert("time".to_owned(), 0);
         for (place, entity) in file.entities.iter().enumerate() {
             for (k, component) in entity.components.iter().enumerate() {
                 if let Some(id) = entity.object_id {
@@ -43,14 +53,20 @@ impl Table {
                 }
             }
         }
-        let dynamic = file
+        let (mut times, mut rows) = (Vec::new(), Vec::new());
+        for block in file
             .data
             .iter()
-            .filter(|block| block.name.starts_with("dynamic"));
-        let rows = dynamic
-            .flat_map(|block| (0..block.times.len()).map(|step| block.row(step).to_vec()))
-            .collect();
-        Self { columns, rows }
+            .filter(|block| block.name.starts_with("dynamic"))
+        {
+            times.extend_from_slice(&block.times);
+            rows.extend((0..block.times.len()).map(|step| block.row(step).to_vec()));
+        }
+        Self {
+            columns,
+            times,
+            rows,
+        }
     }
 
     /// Place of a column.
