@@ -6,5 +6,6 @@
 
 mod delta_robot;
 mod instants;
+mod machines;
 mod run;
 mod table;
