@@ -1,0 +1,429 @@
+//! The program, driven from outside: exit codes, folders, changes, kept results, JSON, Ctrl-C.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const PENDULUM: &str = "A pendulum
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
+ACCGRAV/KGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1, REULER=0, 90D, 0
+PART/2, MASS=1, CM=20, IP=0.1, 0.1, 0.1, QG=1, 0, 0
+MARKER/20, PART=2
+MARKER/21, PART=2, QP=-1, 0, 0, REULER=0, 90D, 0
+JOINT/1, REVOLUTE, I=21, J=1
+FRICTION/103, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, PIN_RADIUS=0.05
+END
+";
+
+/// A fresh folder with these files.
+fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    for (file, text) in files {
+        std::fs::write(folder.join(file), text).unwrap();
+    }
+    folder
+}
+
+fn stiction(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn errors(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn json(bytes: &[u8]) -> serde_json::Value {
+    serde_json::from_slice(bytes).unwrap()
+}
+
+#[test]
+fn a_run_writes_a_folder_and_does_not_overwrite_it() {
+    let folder = folder("run", &[("p.adm", PENDULUM)]);
+    let arguments = ["run", "p.adm", "--end", "0.1", "--dtout", "0.01"];
+    let output = stiction(&folder, &arguments);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        said.contains("p-run") && said.contains("FRICTION/103"),
+        "{said}"
+    );
+    for file in ["p.res", "p.req", "p.msg", "run.json"] {
+        assert!(folder.join("p-run").join(file).is_file(), "{file}");
+    }
+    let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
+    assert_eq!(record["outcome"], "completed");
+    assert_eq!(record["outputs"], 10);
+    assert_eq!(record["options"]["end"], 0.1);
+    assert_eq!(record["inputs"][0]["sha256"].as_str().unwrap().len(), 64);
+    let message = std::fs::read_to_string(folder.join("p-run/p.msg")).unwrap();
+    assert!(
+        message.contains("The model has 1 degrees of freedom"),
+        "{message}"
+    );
+    assert!(
+        message.contains("SI2") && message.contains("Finished -----"),
+        "{message}"
+    );
+
+    let again = stiction(&folder, &arguments);
+    assert_eq!(code(&again), 2);
+    assert!(errors(&again).contains("--force"), "{}", errors(&again));
+    let forced = stiction(&folder, &[&arguments[..], &["--force"]].concat());
+    assert_eq!(code(&forced), 0);
+    let elsewhere = stiction(&folder, &[&arguments[..], &["-o", "there/deep"]].concat());
+    assert_eq!(code(&elsewhere), 0);
+    assert!(folder.join("there/deep/p.res").is_file());
+}
+
+#[test]
+fn equal_runs_write_equal_results() {
+    let folder = folder("equal", &[("p.adm", PENDULUM)]);
+    for name in ["one", "two"] {
+        let output = stiction(&folder, &["run", "p.adm", "--end", "0.5", "-o", name]);
+        assert_eq!(code(&output), 0);
+    }
+    let read = |name: &str| std::fs::read(folder.join(name).join("p.res")).unwrap();
+    assert_eq!(read("one"), read("two"));
+}
+
+#[test]
+fn set_changes_the_friction() {
+    let folder = folder("set", &[("p.adm", PENDULUM)]);
+    let peak = |name: &str, set: &[&str]| {
+        let arguments = ["run", "p.adm", "--end", "0.2", "--steps", "20", "-o", name];
+        let output = stiction(&folder, &[&arguments[..], set].concat());
+        assert_eq!(code(&output), 0, "{}", errors(&output));
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        let row = said
+            .lines()
+            .find(|line| line.starts_with("FRICTION/103"))
+            .unwrap()
+            .to_owned();
+        let place = row
+            .split_whitespace()
+            .position(|word| word == "newton-meter")
+            .unwrap();
+        let number = row
+            .split_whitespace()
+            .nth(place - 1)
+            .unwrap()
+            .parse::<f64>()
+            .unwrap();
+        number
+    };
+    let plain = peak("plain", &[]);
+    let more = peak(
+        "more",
+        &[
+            "--set",
+            "FRICTION/103.MU_STATIC=0.6",
+            "--set",
+            "FRICTION/103.MU_DYNAMIC=0.6",
+        ],
+    );
+    assert!(more > 1.5 * plain, "{plain} and {more}");
+
+    for (change, word) in [
+        ("FRICTION/103.MU_STATC=0.6", "MU_STATIC"),
+        ("FRICTION/7.MU_STATIC=0.6", "FRICTION/7"),
+        ("FRICTION/103.MU_STATIC=-1", "MU_STATIC"),
+    ] {
+        let output = stiction(
+            &folder,
+            &["run", "p.adm", "--end", "1", "-o", "never", "--set", change],
+        );
+        assert_eq!(code(&output), 3, "{change}");
+        assert!(
+            errors(&output).contains(word),
+            "{change}: {}",
+            errors(&output)
+        );
+        assert!(!folder.join("never").exists(), "{change}");
+    }
+    let output = stiction(
+        &folder,
+        &["run", "p.adm", "--end", "1", "--set", "FRICTION/103"],
+    );
+    assert_eq!(code(&output), 2);
+}
+
+#[test]
+fn wrong_usage_is_2() {
+    let folder = folder(
+        "usage",
+        &[("p.adm", PENDULUM), ("p.acf", "\nFILE/MODEL=p\nSTOP\n")],
+    );
+    for arguments in [
+        &["run", "p.adm"][..],
+        &["run", "p.adm", "--end", "-1"],
+        &[
+            "run", "p.adm", "--end", "1", "--steps", "10", "--dtout", "0.1",
+        ],
+        &["run", "p.acf", "--end", "1"],
+        &["run", "p.adm", "--end", "1", "--error", "0"],
+        &["run"],
+        &["walk", "p.adm"],
+    ] {
+        let output = stiction(&folder, arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", errors(&output));
+    }
+    assert!(!folder.join("p-run").exists());
+}
+
+#[test]
+fn wrong_input_is_3_with_its_place() {
+    let broken = PENDULUM.replace("REVOLUTE", "REVOLUT, BEND=3");
+    let lugre = PENDULUM.replace("MU_STATIC", "FORMULATION=LUGRE, MU_STATIC");
+    let reading = PENDULUM.replace(
+        "END",
+        "SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=USER(1)\nMOTION/1, JOINT=1, ROTATIONAL, \
+         FUNCTION=DX(20)\nEND",
+    );
+    let files = [
+        ("broken.adm", broken.as_str()),
+        ("lugre.adm", lugre.as_str()),
+        ("reading.adm", reading.as_str()),
+        (
+            "lost.acf",
+            "\nFILE/MODEL=nowhere\nSIMULATE/DYNAMIC, END=1, STEPS=10\n",
+        ),
+        ("empty.adm", ""),
+    ];
+    let folder = folder("input", &files);
+    for (file, words) in [
+        ("broken.adm", &["broken.adm:9:", "BEND"][..]),
+        (
+            "lugre.adm",
+            &["lugre.adm:10:1: error[", "LUGRE is not simulated yet"],
+        ),
+        (
+            "reading.adm",
+            &[
+                "reading.adm:11:",
+                "USER is not simulated yet",
+                "reading.adm:12:",
+                "TIME only",
+            ],
+        ),
+        ("lost.acf", &["lost.acf:2:1: error[", "nowhere.adm"]),
+        ("empty.adm", &["no statement"]),
+        ("missing.adm", &["cannot read missing.adm"]),
+    ] {
+        let run = stiction(&folder, &["run", file, "-o", "never"]);
+        let run = if file.ends_with(".adm") {
+            stiction(&folder, &["run", file, "--end", "1", "-o", "never"])
+        } else {
+            run
+        };
+        let check = stiction(&folder, &["check", file]);
+        for output in [run, check] {
+            assert_eq!(code(&output), 3, "{file}: {}", errors(&output));
+            for word in words {
+                assert!(
+                    errors(&output).contains(word),
+                    "{file}: {}",
+                    errors(&output)
+                );
+            }
+        }
+        assert!(!folder.join("never").exists(), "{file}");
+    }
+}
+
+#[test]
+fn a_model_that_cannot_be_assembled_is_4() {
+    // The rod of 1 m cannot reach 3 m.
+    let apart = PENDULUM.replace(
+        "END",
+        "MARKER/5, PART=1, QP=3, 0, 0\nMARKER/25, PART=2\nJOINT/2, SPHERICAL, I=25, J=5\nEND",
+    );
+    let folder = folder("apart", &[("apart.adm", apart.as_str())]);
+    let output = stiction(&folder, &["run", "apart.adm", "--end", "1"]);
+    assert_eq!(code(&output), 4, "{}", errors(&output));
+    assert!(errors(&output).contains("JOINT/2"), "{}", errors(&output));
+    let message = std::fs::read_to_string(folder.join("apart-run/apart.msg")).unwrap();
+    assert!(message.contains("---- START: ERROR ----"), "{message}");
+    assert_eq!(code(&stiction(&folder, &["check", "apart.adm"])), 4);
+}
+
+#[test]
+fn a_failed_integration_is_5_and_keeps_the_results() {
+    // The force goes to infinity at 0.5.
+    let infinite = PENDULUM.replace(
+        "END",
+        "SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=1/(0.5-TIME)**3\nEND",
+    );
+    let folder = folder("infinite", &[("infinite.adm", infinite.as_str())]);
+    let output = stiction(
+        &folder,
+        &["run", "infinite.adm", "--end", "1", "--steps", "100"],
+    );
+    assert_eq!(code(&output), 5, "{}", errors(&output));
+    assert!(
+        errors(&output).contains("at time 0.4"),
+        "{}",
+        errors(&output)
+    );
+    let results = std::fs::read_to_string(folder.join("infinite-run/infinite.res")).unwrap();
+    assert!(results.matches("<Step type=\"dynamic\">").count() > 30);
+    assert!(results.contains("runStatus=\"Integration failed\""));
+    let record = json(&std::fs::read(folder.join("infinite-run/run.json")).unwrap());
+    assert_eq!(record["exit_code"], 5);
+}
+
+#[test]
+fn commands_go_on_from_each_other_and_statics_end_the_run() {
+    let commands = "
+FILE/MODEL=C:\\Users\\someone\\models\\p, OUTPUT_PREFIX=swing
+SIMULATE/DYNAMIC, END=0.1, STEPS=10
+FRICTION/103, MU_STATIC=0.5, MU_DYNAMIC=0.5
+SIMULATE/DYNAMIC, DURATION=0.1, DTOUT=0.02
+SIMULATE/STATIC
+SIMULATE/DYNAMIC, END=3, STEPS=10
+";
+    let folder = folder("commands", &[("p.adm", PENDULUM), ("p.acf", commands)]);
+    let output = stiction(&folder, &["run", "p.acf"]);
+    assert_eq!(code(&output), 3, "{}", errors(&output));
+    assert!(
+        errors(&output).contains("p.acf:6:1: SIMULATE/STATIC"),
+        "{}",
+        errors(&output)
+    );
+    let results = std::fs::read_to_string(folder.join("swing-run/swing.res")).unwrap();
+    assert_eq!(results.matches("<Step type=\"dynamic\">").count(), 15);
+    assert!(results.contains("dynamic_002"));
+    let check = stiction(&folder, &["check", "p.acf"]);
+    assert_eq!(code(&check), 3);
+    let said = String::from_utf8_lossy(&check.stdout).into_owned();
+    assert!(
+        said.contains("SIMULATE/STATIC is not simulated yet"),
+        "{said}"
+    );
+}
+
+#[test]
+fn check_tells_freedoms_and_redundancies_as_json() {
+    // A second hinge on the same axis holds nothing new but five equations.
+    let twice = PENDULUM.replace(
+        "END",
+        "MARKER/5, PART=1, QP=0, 1, 0, REULER=0, 90D, 0\nMARKER/25, PART=2, QP=-1, 1, 0, \
+         REULER=0, 90D, 0\nJOINT/2, REVOLUTE, I=25, J=5\nEND",
+    );
+    let folder = folder("check", &[("twice.adm", twice.as_str())]);
+    let output = stiction(&folder, &["check", "twice.adm", "--format", "json"]);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let report = json(&output.stdout);
+    assert_eq!(report["degrees_of_freedom"], 1);
+    assert_eq!(report["redundant_equations"].as_array().unwrap().len(), 5);
+    assert_eq!(report["frictions_not_unique"].as_array().unwrap().len(), 1);
+    assert_eq!(report["elements"]["JOINT"], 2);
+    assert_eq!(
+        report["friction_defaults"][0]["defaults"]["FRICTION_ARM"],
+        1.0
+    );
+    assert!(!folder.join("twice-run").exists());
+    let broken = stiction(&folder, &["check", "nothing.adm", "--format", "json"]);
+    assert_eq!(code(&broken), 3);
+    assert_eq!(json(&broken.stdout)["messages"][0]["severity"], "error");
+}
+
+#[test]
+fn progress_comes_as_lines_of_json() {
+    let folder = folder("progress", &[("p.adm", PENDULUM)]);
+    let output = stiction(
+        &folder,
+        &["run", "p.adm", "--end", "1", "--progress", "json"],
+    );
+    assert_eq!(code(&output), 0);
+    let lines: Vec<serde_json::Value> = errors(&output)
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(lines.last().unwrap()["time"], 1.0);
+    assert_eq!(lines[0]["end"], 1.0);
+    let silent = stiction(
+        &folder,
+        &[
+            "run",
+            "p.adm",
+            "--end",
+            "1",
+            "--force",
+            "--progress",
+            "none",
+        ],
+    );
+    assert_eq!(errors(&silent), "");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_the_results() {
+    let folder = folder("interrupt", &[("p.adm", PENDULUM)]);
+    // Far more outputs than can be written before the signal comes.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args([
+            "run",
+            "p.adm",
+            "--end",
+            "1e5",
+            "--dtout",
+            "0.1",
+            "--progress",
+            "json",
+        ])
+        .current_dir(&folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first line of progress says that the run is on its way.
+    let mut progress = std::io::BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    std::io::BufRead::read_line(&mut progress, &mut line).unwrap();
+    assert!(line.starts_with('{'), "{line}");
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(sent.success());
+    // Keep reading, so that the program is not held up by a full pipe.
+    let mut rest = String::new();
+    std::io::Read::read_to_string(&mut progress, &mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let results = std::fs::read_to_string(folder.join("p-run/p.res")).unwrap();
+    assert!(results.contains("runStatus=\"Interrupted\""));
+    let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
+    assert_eq!(record["outcome"], "interrupted");
+}
+
+#[test]
+fn help_says_what_there_is() {
+    let folder = folder("help", &[]);
+    let output = stiction(&folder, &["run", "--help"]);
+    assert_eq!(code(&output), 0);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    for word in [
+        "--end",
+        "--steps",
+        "--dtout",
+        "--error",
+        "--set",
+        "--progress",
+        "--force",
+        "130",
+    ] {
+        assert!(said.contains(word), "{word}");
+    }
+}
