@@ -4,6 +4,7 @@
     reason = "the figures of the comparisons are what these tests show"
 )]
 
+mod corpus;
 mod delta_robot;
 mod instants;
 mod machines;
