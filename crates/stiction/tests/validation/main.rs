@@ -7,6 +7,7 @@
 mod corpus;
 mod delta_robot;
 mod instants;
+mod invariance;
 mod machines;
 mod run;
 mod table;

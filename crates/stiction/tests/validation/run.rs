@@ -61,7 +61,7 @@ fn run_project(project: &stiction::Project, error: Option<f64>) -> ResFile {
 }
 
 /// A folder of its own for each run of each test process.
-fn scratch_folder() -> PathBuf {
+pub(crate) fn scratch_folder() -> PathBuf {
     use std::sync::atomic::{AtomicUsize, Ordering};
     static NEXT: AtomicUsize = AtomicUsize::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
