@@ -63,8 +63,8 @@ pub(crate) struct RunArguments {
     /// Error tolerance instead of that of the INTEGRATOR statement
     #[arg(long, value_name = "E")]
     pub(crate) error: Option<f64>,
-    /// Change an argument before the run, such as FRICTION/103.MU_STATIC=0.2; may be repeated
-    #[arg(long = "set", value_name = "ELEMENT.ARGUMENT=VALUE")]
+    /// Change an argument before the run; may be repeated
+    #[arg(long = "set", value_name = "FRICTION/103.MU_STATIC=0.2")]
     pub(crate) changes: Vec<String>,
     /// How progress is shown, on standard error
     ///

@@ -114,13 +114,11 @@ fn set_changes_the_friction() {
             .split_whitespace()
             .position(|word| word == "newton-meter")
             .unwrap();
-        let number = row
-            .split_whitespace()
+        row.split_whitespace()
             .nth(place - 1)
             .unwrap()
             .parse::<f64>()
-            .unwrap();
-        number
+            .unwrap()
     };
     let plain = peak("plain", &[]);
     let more = peak(

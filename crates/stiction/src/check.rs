@@ -1,10 +1,9 @@
 //! A project looked at without running it.
 
 use dataset::{Code, CommandKind, Diagnostic, Severity, SimulationKind};
-use mechanics::{AssemblyError, Moved, Redundancy, Simulation};
+use mechanics::{AssemblyError, Moved, Redundancy};
 
 use crate::defaults::{FrictionDefaults, defaults_in_use};
-use crate::lower::lower;
 use crate::message::{InputError, Message};
 use crate::project::Project;
 
@@ -36,27 +35,17 @@ pub struct CheckReport {
 /// # Errors
 /// Everything in its dataset that is not simulated.
 pub fn check(project: &Project) -> Result<CheckReport, InputError> {
-    let (mut measures, surveyed) = project.survey()?;
+    let (_, surveyed) = project.survey()?;
     let mut messages = project.warnings().to_vec();
     messages.extend(surveyed);
     messages.extend(static_simulations(project));
     let dataset = project.dataset();
-    let source = project.model_source();
-    let lowered = lower(dataset, source.name(), &mut measures).map_err(|diagnostics| {
-        let messages = diagnostics
-            .into_iter()
-            .map(|d| Message::new(d, source))
-            .collect();
-        InputError { messages }
-    })?;
-    let frictions: Vec<String> = lowered
-        .model
-        .frictions
+    let mut simulation = project.simulation()?;
+    let frictions = &simulation.model().frictions;
+    let frictions: Vec<String> = frictions
         .iter()
         .map(|friction| friction.label.to_string())
         .collect();
-    // The unit of time matters to the integrator only.
-    let mut simulation = Simulation::new(lowered.model, 1.0);
     let counts = [
         ("PART", dataset.parts.len()),
         ("POINT_MASS", dataset.point_masses.len()),

@@ -138,7 +138,7 @@ impl<W: Write> Journal<W> {
     pub(crate) fn begin(
         &mut self,
         settings: &Settings,
-        notes: &[&String],
+        notes: &[String],
         start: f64,
     ) -> Result<(), OutputError> {
         let name = match settings.formulation {

@@ -10,6 +10,7 @@ use dataset::{
 
 use crate::lower::{Measures, lower};
 use crate::message::{InputError, Message};
+use crate::settings;
 
 /// A checked dataset with the commands of its command file.
 ///
@@ -190,78 +191,86 @@ impl Project {
     /// that is not simulated is known before the run; returns the measures of all of them.
     ///
     /// # Errors
-    /// Everything that is not simulated.
+    /// Everything that is not simulated, and simulations that cannot be.
     pub(crate) fn survey(&self) -> Result<(Measures, Vec<Message>), InputError> {
         let mut measures = Measures::default();
         let source = self.model_source();
-        let located = |diagnostics: Vec<Diagnostic>| -> Vec<Message> {
-            diagnostics
-                .into_iter()
-                .map(|d| Message::new(d, source))
-                .collect()
-        };
-        let mut messages = match lower(&self.dataset, source.name(), &mut measures) {
-            Ok(lowered) => located(lowered.warnings),
-            Err(diagnostics) => {
-                return Err(InputError {
-                    messages: located(diagnostics),
-                });
-            }
-        };
+        let lowered = lower(&self.dataset, source.name(), &mut measures);
+        let given = lowered.is_ok();
+        let mut messages: Vec<Message> = lowered
+            .map_or_else(|diagnostics| diagnostics, |lowered| lowered.warnings)
+            .into_iter()
+            .map(|diagnostic| Message::new(diagnostic, source))
+            .collect();
         let mut dataset = self.dataset.clone();
-        let mut pending = None;
-        let mut failed = false;
-        for sourced in &self.commands {
-            match &sourced.command.kind {
+        let mut changed = None;
+        let mut time = 0.0;
+        for step in &self.commands {
+            match &step.command.kind {
                 CommandKind::Change(change) => {
-                    let (found, wrong) = self.change(&mut dataset, change, sourced.source);
-                    failed |= wrong;
-                    messages.extend(found);
-                    pending = Some(sourced);
+                    messages.extend(self.change(&mut dataset, change, step.source));
+                    changed = Some(step);
                 }
-                CommandKind::Simulate(_) => {
-                    let Some(changed) = pending.take() else {
-                        continue;
-                    };
-                    if let Err(diagnostics) = lower(&dataset, source.name(), &mut measures) {
-                        failed = true;
-                        messages.extend(self.at_command(diagnostics, changed));
+                CommandKind::Simulate(simulate) => {
+                    // A model that is refused as given would be refused again.
+                    if let Some(changed) = changed.take().filter(|_| given) {
+                        let lowered = lower(&dataset, source.name(), &mut measures);
+                        messages.extend(self.at_command(lowered.err(), changed));
+                    }
+                    match settings::span(simulate, time) {
+                        Ok(span) => time = span.map_or(time, |span| span.end),
+                        Err(text) => messages.push(self.refuse(text, step)),
                     }
                 }
-                _ => {}
+                CommandKind::Stop => break,
+                CommandKind::Model { .. } | CommandKind::CommandFile { .. } => {}
             }
         }
-        if failed {
+        if messages.iter().any(Message::is_error) {
             Err(InputError { messages })
         } else {
             Ok((measures, messages))
         }
     }
 
-    /// Makes a change of a command; returns the messages and whether one is an error.
+    /// An error about a command.
+    pub(crate) fn refuse(&self, message: String, step: &SourcedCommand) -> Message {
+        let source = &self.sources[step.source];
+        let diagnostic = Diagnostic {
+            code: Code::InvalidValue,
+            severity: Severity::Error,
+            message,
+            source: source.name().to_owned(),
+            span: step.command.span,
+            notes: Vec::new(),
+            help: None,
+        };
+        Message::new(diagnostic, source)
+    }
+
+    /// Makes a change of a command; returns what is to be said about it.
     pub(crate) fn change(
         &self,
         dataset: &mut Dataset,
         change: &Change,
         source: usize,
-    ) -> (Vec<Message>, bool) {
-        let diagnostics = dataset.apply(change);
-        let failed = has_error(&diagnostics);
+    ) -> Vec<Message> {
         let source = &self.sources[source];
-        (
-            diagnostics
-                .into_iter()
-                .map(|d| Message::new(d, source))
-                .collect(),
-            failed,
-        )
+        let diagnostics = dataset.apply(change).into_iter();
+        diagnostics
+            .map(|diagnostic| Message::new(diagnostic, source))
+            .collect()
     }
 
     /// Messages about a changed model, at the command that changed it.
-    fn at_command(&self, diagnostics: Vec<Diagnostic>, command: &SourcedCommand) -> Vec<Message> {
+    fn at_command(
+        &self,
+        diagnostics: Option<Vec<Diagnostic>>,
+        command: &SourcedCommand,
+    ) -> Vec<Message> {
         let source = &self.sources[command.source];
+        let diagnostics = diagnostics.into_iter().flatten();
         let moved = diagnostics
-            .into_iter()
             .filter(|d| d.severity == Severity::Error)
             .map(|d| {
                 let span = command.command.span;
@@ -353,6 +362,9 @@ impl Loader {
     }
 
     fn read_dataset(&mut self, path: &Path, naming: Option<&Naming>) {
+        let base = path.file_stem().unwrap_or_default();
+        let base = || base.to_string_lossy().into_owned();
+        self.prefix = Some(self.prefix.take().unwrap_or_else(base));
         let Some(place) = self.read(path, naming) else {
             return;
         };
@@ -360,10 +372,6 @@ impl Loader {
         let (dataset, diagnostics) = dataset::read_dataset(source);
         self.messages
             .extend(diagnostics.into_iter().map(|d| Message::new(d, source)));
-        if self.prefix.is_none() {
-            let stem = path.file_stem().unwrap_or_default();
-            self.prefix = Some(stem.to_string_lossy().into_owned());
-        }
         self.dataset = Some((dataset, place));
     }
 
@@ -412,6 +420,12 @@ impl Loader {
                         let message = format!("{} is called twice", found.display());
                         self.report("", Some(&naming), message, None);
                     }
+                    continue;
+                }
+                CommandKind::Simulate(_) | CommandKind::Change(_) if self.prefix.is_none() => {
+                    let message = "this command comes before any model".to_owned();
+                    let help = Some("write FILE/MODEL=name before it".to_owned());
+                    self.report("", Some(&naming), message, help);
                     continue;
                 }
                 _ => {}
@@ -493,6 +507,12 @@ fn resolve(folder: &Path, written: &str, extension: &str) -> PathBuf {
     }
 }
 
+/// One second in the unit of time of a dataset.
+pub(crate) fn second(dataset: &Dataset) -> f64 {
+    let time = dataset.units.as_ref().and_then(|units| units.time);
+    time.map_or(1.0, |unit| 1.0 / unit.si())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -505,10 +525,4 @@ mod tests {
         assert_eq!(found, Path::new("here").join("arm.v2.adm"));
         assert_eq!(base_name("plain"), "plain");
     }
-}
-
-/// One second in the unit of time of a dataset.
-pub(crate) fn second(dataset: &Dataset) -> f64 {
-    let time = dataset.units.as_ref().and_then(|units| units.time);
-    time.map_or(1.0, |unit| 1.0 / unit.si())
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use dataset::{CommandKind, Dataset, Simulate, SimulationKind};
 use mechanics::{Ending, RunError as MechanicsError, Simulation, Statistics};
-use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter, UnitNames};
+use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
 
 use crate::channels::{Channels, Row, unit_names};
 use crate::journal::Journal;
@@ -16,6 +16,9 @@ use crate::project::{Project, SourcedCommand, second};
 use crate::recorder::{Recorder, Stop};
 use crate::report::{self, FrictionReport};
 use crate::settings;
+
+/// Rows of the integrator's table, about, for each simulation.
+const TABLE_ROWS: f64 = 10.0;
 
 /// What can be said about a run beyond its files.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -360,14 +363,15 @@ impl<'a> Runner<'a> {
 
     fn dynamic(&mut self, simulate: &Simulate, watch: &mut dyn Watch) -> Result<(), Halt> {
         let start = self.simulation.state().time;
-        let outputs = settings::outputs(simulate, start)
-            .map_err(|text| Halt::Ended(Outcome::Refused(text)))?;
+        let refused = |text: String| Halt::Ended(Outcome::Refused(text));
+        let span = settings::span(simulate, start).map_err(refused)?;
+        let span = span.ok_or_else(|| refused("SIMULATE needs END or DURATION".to_owned()))?;
         let integrator = self.dataset.integrator.as_ref();
-        let choice = settings::choose(integrator, outputs.step, self.options.error);
-        let notes: Vec<&String> = choice.notes.iter().chain(&outputs.notes).collect();
+        let choice = settings::choose(integrator, span.step, self.options.error);
+        let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
         self.log.begin(&choice.settings, &notes, start)?;
         self.recorder.begin(DataKind::Dynamic)?;
-        let end = *outputs.times.last().unwrap_or(&start);
+        let (end, times) = (span.end, span.outputs(start));
         let mut observer = crate::recorder::Observe {
             recorder: &mut self.recorder,
             log: &mut self.log,
@@ -375,13 +379,13 @@ impl<'a> Runner<'a> {
             started: self.started,
             end: self.last_end,
             next_row: start,
-            row_interval: (end - start) / 10.0,
+            row_interval: (end - start) / TABLE_ROWS,
             stop: None,
             interrupted: false,
         };
         let ran = self
             .simulation
-            .run(end, &outputs.times, &choice.settings, &mut observer);
+            .run(end, &times, &choice.settings, &mut observer);
         let (stop, interrupted) = (observer.stop.take(), observer.interrupted);
         match stop {
             Some(Stop::Output(error)) => return Err(Halt::Output(error)),
@@ -448,24 +452,11 @@ fn explain(error: &MechanicsError) -> String {
 
 /// Time at which the last simulation of a project ends.
 fn last_end(project: &Project) -> f64 {
-    project
-        .steps()
-        .iter()
-        .fold(0.0, |time, step| match &step.command.kind {
-            CommandKind::Simulate(simulate) => match (simulate.end, simulate.duration) {
-                (Some(end), _) => end,
-                (None, Some(duration)) => time + duration,
-                (None, None) => time,
-            },
-            _ => time,
-        })
-}
-
-/// Names of the units of a project's results.
-impl Project {
-    /// Names of the units in its results.
-    #[must_use]
-    pub fn unit_names(&self) -> UnitNames {
-        unit_names(self.dataset())
-    }
+    project.steps().iter().fold(0.0, |time, step| {
+        let CommandKind::Simulate(simulate) = &step.command.kind else {
+            return time;
+        };
+        let span = settings::span(simulate, time).ok().flatten();
+        span.map_or(time, |span| span.end)
+    })
 }

@@ -102,40 +102,37 @@ fn not_honoured(given: &Integrator) -> Vec<&'static str> {
         .collect()
 }
 
-/// Output times of a simulation, rising, the last exactly its end.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Outputs {
-    pub(crate) times: Vec<f64>,
-    /// Time between two of them (the last interval may be shorter).
+/// End of a simulation and the time between its outputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TimeSpan {
+    pub(crate) end: f64,
+    /// Time between two outputs (the last interval may be shorter).
     pub(crate) step: f64,
-    pub(crate) notes: Vec<String>,
+    /// Number of outputs after the start.
+    count: usize,
+    /// Whether the SIMULATE says how many outputs it wants.
+    pub(crate) is_given: bool,
 }
 
-/// Output times `start + k·step` of a SIMULATE, the last exactly its end.
+/// The time span of a SIMULATE that starts at `start`; `None` for one that takes no time.
 ///
 /// # Errors
-/// What is wrong with them, in words.
-pub(crate) fn outputs(simulate: &Simulate, start: f64) -> Result<Outputs, String> {
+/// What is wrong with it, in words.
+pub(crate) fn span(simulate: &Simulate, start: f64) -> Result<Option<TimeSpan>, String> {
     let end = match (simulate.end, simulate.duration) {
         (Some(end), _) => end,
         (None, Some(duration)) => start + duration,
-        (None, None) => return Err("SIMULATE needs END or DURATION".to_owned()),
+        (None, None) => return Ok(None),
     };
     if !(end > start) {
         return Err(format!(
             "the simulation would end at {end}, but it is {start} already"
         ));
     }
-    let mut notes = Vec::new();
-    let step = match (simulate.steps, simulate.dtout) {
-        (_, Some(dtout)) => dtout.min(end - start),
-        (Some(steps), None) => (end - start) / f64::from(steps),
-        (None, None) => {
-            notes.push(format!(
-                "neither STEPS nor DTOUT is given: STEPS={DEFAULT_STEPS} is used"
-            ));
-            (end - start) / f64::from(DEFAULT_STEPS)
-        }
+    let (step, is_given) = match (simulate.steps, simulate.dtout) {
+        (_, Some(dtout)) => (dtout.min(end - start), true),
+        (Some(steps), None) => ((end - start) / f64::from(steps), true),
+        (None, None) => ((end - start) / f64::from(DEFAULT_STEPS), false),
     };
     // An interval that is whole but for rounding is not split.
     let count = ((end - start) / step - 1e-9).ceil().max(1.0);
@@ -144,11 +141,26 @@ pub(crate) fn outputs(simulate: &Simulate, start: f64) -> Result<Outputs, String
             "{count} outputs are too many; at most {MOST_OUTPUTS} are written"
         ));
     }
-    let mut times: Vec<f64> = (1..count as usize)
-        .map(|k| start + k as f64 * step)
-        .collect();
-    times.push(end);
-    Ok(Outputs { times, step, notes })
+    Ok(Some(TimeSpan {
+        end,
+        step,
+        count: count as usize,
+        is_given,
+    }))
+}
+
+impl TimeSpan {
+    /// Output times `start + k·step`, rising, the last exactly the end.
+    pub(crate) fn outputs(&self, start: f64) -> Vec<f64> {
+        let inner = (1..self.count).map(|k| start + k as f64 * self.step);
+        inner.chain([self.end]).collect()
+    }
+
+    /// What to tell about it.
+    pub(crate) fn note(&self) -> Option<String> {
+        let note = || format!("neither STEPS nor DTOUT is given: STEPS={DEFAULT_STEPS} is used");
+        (!self.is_given).then(note)
+    }
 }
 
 #[cfg(test)]
@@ -168,16 +180,29 @@ mod tests {
 
     #[test]
     fn the_last_output_is_the_end() {
-        let times = outputs(&simulate(0.25, None, Some(0.1)), 0.0)
-            .unwrap()
-            .times;
-        assert_eq!(times, [0.1, 0.2, 0.25]);
-        let times = outputs(&simulate(0.3, None, Some(0.1)), 0.0).unwrap().times;
-        assert_eq!(times, [0.1, 0.2, 0.3]);
-        let times = outputs(&simulate(2.0, Some(4), None), 1.0).unwrap().times;
-        assert_eq!(times, [1.25, 1.5, 1.75, 2.0]);
-        assert!(outputs(&simulate(1.0, Some(4), None), 1.0).is_err());
-        assert!(outputs(&simulate(1.0, None, Some(1e-12)), 0.0).is_err());
+        let times = |simulate: &Simulate, start| {
+            span(simulate, start).map(|span| span.map_or(Vec::new(), |span| span.outputs(start)))
+        };
+        assert_eq!(
+            times(&simulate(0.25, None, Some(0.1)), 0.0).unwrap(),
+            [0.1, 0.2, 0.25]
+        );
+        assert_eq!(
+            times(&simulate(0.3, None, Some(0.1)), 0.0).unwrap(),
+            [0.1, 0.2, 0.3]
+        );
+        assert_eq!(
+            times(&simulate(2.0, Some(4), None), 1.0).unwrap(),
+            [1.25, 1.5, 1.75, 2.0]
+        );
+        assert!(times(&simulate(1.0, Some(4), None), 1.0).is_err());
+        assert!(times(&simulate(1.0, None, Some(1e-12)), 0.0).is_err());
+        let lasting = Simulate {
+            end: None,
+            duration: Some(1.0),
+            ..simulate(0.0, Some(2), None)
+        };
+        assert_eq!(times(&lasting, 5.0).unwrap(), [5.5, 6.0]);
     }
 
     #[test]

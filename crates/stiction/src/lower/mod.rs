@@ -16,6 +16,8 @@ mod motions;
 mod outputs;
 mod results;
 
+use std::collections::HashSet;
+
 use ::dataset::{Code, Dataset, Diagnostic, Header, Severity, Span};
 use mechanics::model::{Label, Model};
 use nalgebra::Vector3;
@@ -59,6 +61,7 @@ pub(crate) fn lower(
         motions: Vec::new(),
         results: Vec::new(),
         diagnostics: Vec::new(),
+        told: HashSet::new(),
     };
     let gravity = Vector3::from(dataset.gravity.unwrap_or_default());
     let mut model = Model {
@@ -103,6 +106,8 @@ struct Lowering<'a> {
     /// Results that output functions read, by number.
     results: Vec<results::ResultSource>,
     diagnostics: Vec<Diagnostic>,
+    /// Places and texts of the diagnostics.
+    told: HashSet<(usize, usize, String)>,
 }
 
 impl Lowering<'_> {
@@ -127,11 +132,8 @@ impl Lowering<'_> {
         message: String,
         help: Option<&str>,
     ) {
-        let known = self
-            .diagnostics
-            .iter()
-            .any(|d| d.span == span && d.message == message);
-        if !known {
+        // A variable that several functions read is gone through for each of them.
+        if self.told.insert((span.start, span.end, message.clone())) {
             self.diagnostics.push(Diagnostic {
                 code,
                 severity,

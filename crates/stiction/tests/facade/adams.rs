@@ -145,12 +145,11 @@ fn single_joints_match_adams() {
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
+/// A text of a dataset and what it becomes.
+type Change = (&'static str, &'static str);
+
 /// A model of one spring, changed to what its tables are of, run; rows of three components each.
-fn run_spring(
-    case: &str,
-    changes: &[(&str, &str)],
-    columns: [&str; 9],
-) -> Option<[Vec<[f64; 3]>; 3]> {
+fn run_spring(case: &str, changes: &[Change], columns: [&str; 9]) -> Option<[Vec<[f64; 3]>; 3]> {
     let file = reference(&format!("adams-results/single-joint/{case}.adm"))?;
     let mut text = String::from_utf8_lossy(&std::fs::read(file).unwrap()).into_owned();
     for (from, to) in changes {
@@ -203,7 +202,7 @@ fn springs_match_adams() {
         "sforce.TY",
         "sforce.TZ",
     ];
-    let cases: [(&str, &[(&str, &str)], [&str; 3]); 2] = [
+    let cases: [(&str, &[Change], [&str; 3]); 2] = [
         (
             "TranSpring_Case01",
             &vertical,

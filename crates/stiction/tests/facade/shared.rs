@@ -1,4 +1,5 @@
 //! Reference data beside the checkout, and runs of models into temporary folders.
+#![allow(clippy::print_stdout, reason = "a skipped test says why")]
 
 use std::path::{Path, PathBuf};
 
