@@ -31,6 +31,11 @@ const EXACT_WEIGHT: f64 = 1e10;
 const GIVEN_WEIGHT: f64 = 1e6;
 /// Diagonal of the multipliers that makes redundant equations harmless.
 const REGULARISATION: f64 = 1e-10;
+/// Where steps no longer lessen the error, that number grows up to this.
+const LARGEST_REGULARISATION: f64 = 1.0;
+/// What an error of a constraint equation is.
+const LENGTH: &str = "units of length";
+const ANGLE: &str = "radians";
 
 /// An equation found redundant and dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,13 +83,40 @@ pub struct Assembly {
     pub iterations: usize,
 }
 
+/// A constraint equation that could not be met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unmet {
+    /// The element that it belongs to.
+    pub owner: Label,
+    /// The equation, in terms of the axes of I and J.
+    pub equation: String,
+    /// How far it is from being met: a length, an angle in radians, or their rate.
+    pub error: f64,
+    /// What the error is, for messages.
+    pub quantity: &'static str,
+}
+
+impl std::fmt::Display for Unmet {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            owner,
+            equation,
+            error,
+            quantity,
+        } = self;
+        write!(f, "{owner}, {equation}: off by {error:.3e} {quantity}")
+    }
+}
+
 /// Assembly failed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AssemblyError {
     /// The constraints cannot be met together.
     Inconsistent {
-        /// Elements whose equations are not met, with the error left, the largest first.
-        unmet: Vec<(Label, String, f64)>,
+        /// Equations that are not met in the positions given, the largest error first.
+        given: Vec<Unmet>,
+        /// Equations that are not met in the best positions found, the largest error first.
+        unmet: Vec<Unmet>,
     },
     /// A joint's axes are opposite instead of co-directed.
     Opposite {
@@ -96,7 +128,7 @@ pub enum AssemblyError {
     /// Velocities that the constraints prescribe contradict one another.
     Velocities {
         /// Elements whose equations are not met, with the error left, the largest first.
-        unmet: Vec<(Label, String, f64)>,
+        unmet: Vec<Unmet>,
     },
     /// A function of time or displacement gives no number.
     NotANumber {
@@ -107,19 +139,17 @@ pub enum AssemblyError {
 
 impl std::fmt::Display for AssemblyError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let list = |unmet: &[(Label, String, f64)]| {
-            let lines: Vec<String> = unmet
-                .iter()
-                .take(10)
-                .map(|(label, equation, error)| format!("{label}, {equation}: off by {error:.3e}"))
-                .collect();
+        let list = |unmet: &[Unmet]| {
+            let lines: Vec<String> = unmet.iter().take(10).map(ToString::to_string).collect();
             lines.join("; ")
         };
         match self {
-            Self::Inconsistent { unmet } => {
+            Self::Inconsistent { given, unmet } => {
                 write!(
                     f,
-                    "the joints cannot be assembled; not met: {}",
+                    "the joints cannot be assembled; not met in the positions given: {}; not met in \
+                     the best positions found: {}",
+                    list(given),
                     list(unmet)
                 )
             }
@@ -164,6 +194,9 @@ struct Row {
     blocks: Vec<(usize, [f64; 6])>,
     in_position: bool,
     in_velocity: bool,
+    /// What errors and rates are multiplied with to become dimensionless, and what they are.
+    scale: f64,
+    quantity: &'static str,
     label: Label,
     name: String,
 }
@@ -328,14 +361,14 @@ impl System {
             if constraint.row.is_none() {
                 continue;
             }
-            let scale = match constraint.form {
+            let (scale, quantity) = match constraint.form {
                 Form::Pair {
                     equation: Equation::Along(_),
                     ..
-                } => 1.0 / length,
-                Form::Pair { .. } => 1.0,
+                } => (1.0 / length, LENGTH),
+                Form::Pair { .. } => (1.0, ANGLE),
                 // Unknown dimension: scaled by the gradient where it is known.
-                Form::Function => gradient_scale(&evaluated.jacobian, length),
+                Form::Function => (gradient_scale(&evaluated.jacobian, length), ""),
             };
             let blocks = constraint.bodies.iter().zip(&evaluated.jacobian);
             rows.push(Row {
@@ -346,6 +379,8 @@ impl System {
                     .collect(),
                 in_position: constraint.level == Level::Position,
                 in_velocity: constraint.level != Level::Acceleration,
+                scale,
+                quantity,
                 label: self.owner_label(constraint.owner).clone(),
                 name: name(constraint.form),
             });
@@ -354,7 +389,11 @@ impl System {
             let (i, j) = (self.marker(start.i), self.marker(start.j));
             let row = start.equation.evaluate(&i, &j);
             let along = matches!(start.equation, Equation::Along(_));
-            let scale = if along { 1.0 / length } else { 1.0 };
+            let (scale, quantity) = if along {
+                (1.0 / length, LENGTH)
+            } else {
+                (1.0, ANGLE)
+            };
             let mut blocks = Vec::new();
             for (side, body) in [(0, i.body), (6, j.body)] {
                 if let Some(body) = body {
@@ -372,9 +411,22 @@ impl System {
                 blocks,
                 in_position: start.displacement.is_some(),
                 in_velocity: start.velocity.is_some(),
+                scale,
+                quantity,
                 label: start.label.clone(),
                 name: "initial condition".to_owned(),
             });
+        }
+        rows
+    }
+
+    /// Rows at `state`, those that say nothing of positions emptied.
+    fn position_rows(&mut self, state: &State, starts: &[Start], length: f64) -> Vec<Row> {
+        self.evaluate(state, false);
+        let mut rows = self.assembly_rows(starts, length);
+        for row in rows.iter_mut().filter(|row| !row.in_position) {
+            row.error = 0.0;
+            row.blocks.iter_mut().for_each(|block| block.1 = [0.0; 6]);
         }
         rows
     }
@@ -388,31 +440,36 @@ impl System {
     ) -> Result<usize, AssemblyError> {
         let n = self.velocity_count();
         let mut least = Least::new(n, self.row_count() + starts.len());
-        let mut last = f64::INFINITY;
-        let mut stalled = 0;
+        let mut regularisation = REGULARISATION;
+        let mut best = f64::INFINITY;
+        let mut kept = state.clone();
+        let given = unmet(&self.position_rows(state, starts, length), |row| row.error);
         for iteration in 0..ITERATIONS {
-            self.evaluate(state, false);
-            let mut rows = self.assembly_rows(starts, length);
-            for row in &mut rows {
-                if !row.in_position {
-                    row.error = 0.0;
-                    row.blocks.iter_mut().for_each(|block| block.1 = [0.0; 6]);
-                }
-            }
+            let mut rows = self.position_rows(state, starts, length);
             if rows.iter().any(|row| !row.error.is_finite()) {
                 return Err(AssemblyError::NotANumber {
                     element: self.find_not_a_number(),
                 });
             }
             let error = rows.iter().fold(0.0_f64, |m, row| m.max(row.error.abs()));
-            stalled = if error < 0.5 * last { 0 } else { stalled + 1 };
-            // Rounding is reached, or the best that inaccurate redundant equations allow.
-            if error < 1e-14 || (error < CONSISTENT && stalled > 2) {
+            if error < 1e-14 {
                 return Ok(iteration);
             }
-            last = last.min(error);
+            if error < 0.9 * best {
+                best = error;
+                kept.clone_from(state);
+            } else {
+                // Redundant equations that contradict one another leave an error that no step
+                // removes; smaller multipliers keep the steps from running away with it.
+                regularisation *= 100.0;
+                if regularisation > LARGEST_REGULARISATION {
+                    break;
+                }
+                state.clone_from(&kept);
+                rows = self.position_rows(state, starts, length);
+            }
             let right: Vec<f64> = rows.iter().map(|row| -row.error).collect();
-            let mut change = least.solve(&rows, weights, &vec![0.0; n], &right);
+            let mut change = least.solve(&rows, weights, &vec![0.0; n], &right, regularisation);
             for body in change.chunks_exact_mut(6) {
                 let turn = Vector3::from_column_slice(&body[3..6]).norm();
                 let limit = (LARGEST_TURN / turn.max(1e-300)).min(1.0);
@@ -422,11 +479,13 @@ impl System {
             }
             state.displace(&change);
         }
+        state.clone_from(&kept);
         self.evaluate(state, false);
-        let unmet = unmet(&self.assembly_rows(starts, length), |row| {
-            if row.in_position { row.error } else { 0.0 }
-        });
-        Err(AssemblyError::Inconsistent { unmet })
+        if best < CONSISTENT {
+            return Ok(ITERATIONS);
+        }
+        let unmet = unmet(&self.position_rows(&kept, starts, length), |row| row.error);
+        Err(AssemblyError::Inconsistent { given, unmet })
     }
 
     fn assemble_velocities(
@@ -453,23 +512,23 @@ impl System {
         let right: Vec<f64> = rows.iter().map(|row| row.rate).collect();
         let mut least = Least::new(n, rows.len());
         let weights = self.velocity_weights();
-        let mut velocities = least.solve(&rows, &weights, &wanted, &right);
+        let mut velocities = least.solve(&rows, &weights, &wanted, &right, REGULARISATION);
         // A second pass removes what the regularisation left of the first.
         let missing: Vec<f64> = rows
             .iter()
             .map(|row| row.rate - along(row, &velocities))
             .collect();
-        let correction = least.solve(&rows, &weights, &vec![0.0; n], &missing);
+        let correction = least.solve(&rows, &weights, &vec![0.0; n], &missing, REGULARISATION);
         for (v, c) in velocities.iter_mut().zip(correction) {
             *v += c;
         }
         let size = velocities.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let size = rows.iter().fold(size, |m, row| m.max(row.rate.abs()));
         let unmet = unmet(&rows, |row| row.rate - along(row, &velocities));
-        if unmet
-            .first()
-            .is_some_and(|(_, _, error)| !(*error <= CONSISTENT * size.max(1e-12)))
-        {
+        let largest = rows.iter().fold(0.0_f64, |m, row| {
+            m.max((row.rate - along(row, &velocities)).abs())
+        });
+        if !(largest <= CONSISTENT * size.max(1e-12)) {
             return Err(AssemblyError::Velocities { unmet });
         }
         for (k, (u, v)) in state
@@ -644,14 +703,24 @@ fn along(row: &Row, velocities: &[f64]) -> f64 {
     products.sum()
 }
 
-fn unmet(rows: &[Row], error: impl Fn(&Row) -> f64) -> Vec<(Label, String, f64)> {
-    let mut unmet: Vec<(Label, String, f64)> = rows
+/// The rows whose dimensionless `error` is beyond rounding, the largest first.
+fn unmet(rows: &[Row], error: impl Fn(&Row) -> f64) -> Vec<Unmet> {
+    let mut unmet: Vec<(f64, Unmet)> = rows
         .iter()
-        .map(|row| (row.label.clone(), row.name.clone(), error(row).abs()))
-        .filter(|(_, _, error)| !(*error <= 1e-12))
+        .map(|row| (error(row).abs(), row))
+        .filter(|(error, _)| !(*error <= 1e-12))
+        .map(|(error, row)| {
+            let unmet = Unmet {
+                owner: row.label.clone(),
+                equation: row.name.clone(),
+                error: error / row.scale,
+                quantity: row.quantity,
+            };
+            (error, unmet)
+        })
         .collect();
-    unmet.sort_by(|a, b| b.2.total_cmp(&a.2));
-    unmet
+    unmet.sort_by(|a, b| b.0.total_cmp(&a.0));
+    unmet.into_iter().map(|(_, unmet)| unmet).collect()
 }
 
 /// The smallest weighted change that meets linear equations: `[W −Gᵀ; G ε] [x; μ] = [W x₀; b]`.
@@ -672,14 +741,19 @@ impl Least {
         }
     }
 
-    fn factor<'a>(&mut self, rows: impl Iterator<Item = &'a Row>, weights: &[f64]) {
+    fn factor<'a>(
+        &mut self,
+        rows: impl Iterator<Item = &'a Row>,
+        weights: &[f64],
+        regularisation: f64,
+    ) {
         self.matrix.start();
         for (k, weight) in weights.iter().enumerate() {
             self.matrix.add(k, k, *weight);
         }
         for (place, row) in rows.enumerate() {
             let place = self.n + place;
-            self.matrix.add(place, place, REGULARISATION);
+            self.matrix.add(place, place, regularisation);
             for (body, block) in &row.blocks {
                 for (k, g) in block.iter().enumerate() {
                     self.matrix.add(place, 6 * body + k, *g);
@@ -693,8 +767,15 @@ impl Least {
         debug_assert!(factored.is_ok(), "a regularised matrix has an inverse");
     }
 
-    fn solve(&mut self, rows: &[Row], weights: &[f64], wanted: &[f64], right: &[f64]) -> Vec<f64> {
-        self.factor(rows.iter(), weights);
+    fn solve(
+        &mut self,
+        rows: &[Row],
+        weights: &[f64],
+        wanted: &[f64],
+        right: &[f64],
+        regularisation: f64,
+    ) -> Vec<f64> {
+        self.factor(rows.iter(), weights, regularisation);
         let mut solution: Vec<f64> = wanted.iter().zip(weights).map(|(x, w)| x * w).collect();
         solution.extend_from_slice(right);
         if self.factors.fill() > 0 {
@@ -706,7 +787,7 @@ impl Least {
 
     /// Coefficients with which `rows` combine to `target` as nearly as possible.
     fn combination(&mut self, rows: &[&Row], target: &[f64]) -> Vec<f64> {
-        self.factor(rows.iter().copied(), &vec![1.0; self.n]);
+        self.factor(rows.iter().copied(), &vec![1.0; self.n], REGULARISATION);
         let mut solution = target.to_vec();
         solution.resize(self.n + self.rows, 0.0);
         self.factors.solve(&mut solution);

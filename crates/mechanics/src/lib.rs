@@ -103,7 +103,7 @@ mod snapshot;
 pub mod state;
 mod system;
 
-pub use assembly::{Assembly, AssemblyError, Moved, Redundancy, VelocityChange};
+pub use assembly::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
 pub use constraint::Owner;
 pub use dynamics::{Formulation, Work};
 pub use instant::Failure;
