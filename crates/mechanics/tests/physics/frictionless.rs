@@ -7,7 +7,9 @@ use nalgebra::Vector3;
 use crate::builder::v;
 use crate::runs::{angular_velocity, assembled, energy, every, go_on, run, settings};
 use crate::shared::{number, numbers, reference};
-use crate::systems::{andrews, bricard, four_bar_chain, free_body, pendulum, top};
+use crate::systems::{
+    andrews, body_angles, bricard, four_bar, four_bar_chain, free_body, pendulum, slider_crank, top,
+};
 
 /// Period of the pendulum of 1 m from the horizontal, g = 9.81: `4 K(sin 45°) / √g`.
 const PENDULUM_PERIOD: f64 = 2.367_841_947_576_237_3;
@@ -78,6 +80,7 @@ fn four_bar_chains_pass_their_singular_positions() {
     let Some(file) = reference("validation/data/D05_D06_benchmarks.json") else {
         return;
     };
+    let both = [Formulation::Si2, Formulation::I3];
     for (loops, case) in [(2, "A02_N2"), (40, "A02_N40")] {
         let mut simulation = Simulation::new(four_bar_chain(loops), 1.0);
         let assembly = simulation.assemble().expect("the chain assembles");
@@ -90,23 +93,25 @@ fn four_bar_chains_pass_their_singular_positions() {
             (start - expected).abs() < 1e-9 * expected,
             "{start} {expected}"
         );
-        let mut errors = Vec::new();
-        for tolerance in [1e-6, 1e-8] {
-            let settings = settings(Formulation::I3, tolerance, 0.05);
-            let mut at = simulation.clone();
-            let mut drift = 0.0_f64;
-            go_on(&mut at, &every(10.0, 40), &settings, |s| {
-                drift = drift.max((energy(s) - start).abs() / start);
-            });
-            let centre = at.state().centre(0);
-            let x = number(&file, &format!("/cases/{case}/xB0_10"));
-            let y = number(&file, &format!("/cases/{case}/yB0_10"));
-            let error = (2.0 * centre - v(x, y, 0.0)).norm();
-            row(&format!("D06 N = {loops}"), &settings, error, drift, &at);
-            errors.push(error);
+        for formulation in both {
+            let mut errors = Vec::new();
+            for tolerance in [1e-6, 1e-8] {
+                let settings = settings(formulation, tolerance, 0.05);
+                let mut at = simulation.clone();
+                let mut drift = 0.0_f64;
+                go_on(&mut at, &every(10.0, 40), &settings, |s| {
+                    drift = drift.max((energy(s) - start).abs() / start);
+                });
+                let centre = at.state().centre(0);
+                let x = number(&file, &format!("/cases/{case}/xB0_10"));
+                let y = number(&file, &format!("/cases/{case}/yB0_10"));
+                let error = (2.0 * centre - v(x, y, 0.0)).norm();
+                row(&format!("D06 N = {loops}"), &settings, error, drift, &at);
+                errors.push(error);
+            }
+            // Observed 1e-6 to 5e-5 after five turns through ten singular positions.
+            falls("D06", &errors, 5e-4);
         }
-        // Observed 5.4e-5 and 7.5e-5 after five turns through ten singular positions.
-        falls("D06", &errors, 5e-4);
     }
 }
 
@@ -137,7 +142,7 @@ fn bricard_moves_with_one_redundant_equation() {
                 .map(|t| begin + t)
                 .collect();
             go_on(&mut at, &outputs, &settings, |s| {
-                drift = drift.max((energy(s) - start).abs())
+                drift = drift.max((energy(s) - start).abs());
             });
             let snapshot = at.snapshot();
             let tip = snapshot.part(2).origin + snapshot.rotation(2) * v(0.0, 0.0, 0.5);
@@ -206,53 +211,116 @@ fn tops_turn_as_their_closed_forms() {
     assert!(errors[2][2] < 1e-6, "D08c: {errors:?}");
 }
 
+/// Largest errors of angles (relative), rates and reactions (of the largest) of Andrews' mechanism,
+/// given the published coordinates, rates and multipliers where there are any.
+fn andrews_errors(
+    settings: &Settings,
+    end: f64,
+    [q, rates, forces]: [&[f64]; 3],
+) -> (Simulation, [f64; 3]) {
+    let system = andrews();
+    let mut simulation = Simulation::new(system.model, 1.0);
+    let assembly = simulation.assemble().expect("it assembles");
+    assert_eq!(assembly.redundant.len(), 9);
+    simulation.solve_instant().expect("unique");
+    go_on(&mut simulation, &[end], settings, |_| {});
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let (angles, exact_rates) = (body_angles(q), body_angles(rates));
+    let mut errors = [0.0_f64; 3];
+    for body in 0..7 {
+        let turn = simulation.state().orientation(body).matrix();
+        let angle = system.angles[body] + turn[(1, 0)].atan2(turn[(0, 0)]);
+        let difference = angle - angles[body];
+        let turns = (difference / std::f64::consts::TAU).round();
+        let error = (difference - std::f64::consts::TAU * turns).abs();
+        errors[0] = errors[0].max(error / angles[body].abs().max(1.0));
+        let rate = angular_velocity(&simulation, body).z;
+        errors[1] = errors[1].max((rate - exact_rates[body]).abs() / largest(rates));
+    }
+    for (joint, force) in system.closing.into_iter().zip(forces.chunks_exact(2)) {
+        let reaction = simulation.snapshot().reaction(Owner::Joint(joint)).force;
+        let error = (reaction - v(force[0], force[1], 0.0)).norm();
+        errors[2] = errors[2].max(error / largest(forces));
+    }
+    (simulation, errors)
+}
+
 #[test]
 fn andrews_mechanism_meets_the_published_end_values() {
-    heading("D01 Andrews: angles (relative) at 0.03 s; then rates and reactions");
+    heading("D01 Andrews: angles, rates and reactions (relative) at 0.03 s; angles at 0.05 s");
     let Some(file) = reference("validation/published/ivp_testset_reference.json") else {
         return;
     };
-    let system = andrews();
-    let q = numbers(&file, "/andrews/q");
-    let rates = numbers(&file, "/andrews/qdot");
-    let forces = numbers(&file, "/andrews/lam");
-    let mut errors = Vec::new();
-    for tolerance in [1e-6, 1e-8, 1e-10] {
-        let settings = settings(Formulation::Si2, tolerance, 1e-3);
-        let mut simulation = Simulation::new(system.model.clone(), 1.0);
-        let assembly = simulation.assemble().expect("it assembles");
-        assert_eq!(assembly.redundant.len(), 9);
-        simulation.solve_instant().expect("unique");
-        go_on(&mut simulation, &[0.03], &settings, |_| {});
-        let exact = crate::systems::body_angles(&q);
-        let exact_rates = crate::systems::body_angles(&rates);
-        let (mut angle_error, mut rate_error, mut force_error) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for body in 0..7 {
-            let turn = simulation.state().orientation(body).matrix();
-            let angle = system.angles[body] + turn[(1, 0)].atan2(turn[(0, 0)]);
-            let difference = angle - exact[body];
-            let turns = (difference / std::f64::consts::TAU).round();
-            let error = (difference - std::f64::consts::TAU * turns).abs();
-            angle_error = angle_error.max(error / exact[body].abs().max(1.0));
-            let rate = angular_velocity(&simulation, body).z;
-            rate_error = rate_error.max((rate - exact_rates[body]).abs() / 1424.0);
+    let [q, rates, forces] =
+        ["q", "qdot", "lam"].map(|key| numbers(&file, &format!("/andrews/{key}")));
+    for formulation in [Formulation::Si2, Formulation::I3] {
+        let mut all = [const { Vec::new() }; 3];
+        for tolerance in [1e-6, 1e-8, 1e-10] {
+            let settings = settings(formulation, tolerance, 1e-3);
+            let (simulation, errors) = andrews_errors(&settings, 0.03, [&q, &rates, &forces]);
+            for (n, quantity) in ["angles", "rates", "reactions"].into_iter().enumerate() {
+                row(
+                    &format!("D01 {quantity}"),
+                    &settings,
+                    errors[n],
+                    0.0,
+                    &simulation,
+                );
+                all[n].push(errors[n]);
+            }
         }
-        for (n, joint) in system.closing.into_iter().enumerate() {
-            let force = simulation.snapshot().reaction(Owner::Joint(joint)).force;
-            let exact = v(forces[2 * n], forces[2 * n + 1], 0.0);
-            force_error = force_error.max((force - exact).norm() / 201.4);
-        }
-        row("D01 angles", &settings, angle_error, 0.0, &simulation);
-        row("D01 rates", &settings, rate_error, 0.0, &simulation);
-        row("D01 reactions", &settings, force_error, 0.0, &simulation);
-        errors.push([angle_error, rate_error, force_error]);
+        // Observed 3.4e-9 and 5.0e-9 with SI2, 7.8e-8 and 1.1e-7 with I3, whose tolerance holds
+        // for positions only. The published reactions are good to about 7e-8.
+        let bound = if formulation == Formulation::Si2 {
+            1e-7
+        } else {
+            1e-6
+        };
+        falls("D01 angles", &all[0], bound);
+        falls("D01 rates", &all[1], bound);
+        assert!(all[2][2] < 1e-6, "D01 reactions: {all:?}");
     }
-    for (n, bound) in [(0, 1e-7), (1, 1e-7), (2, 1e-6)] {
-        // Observed 3.4e-9, 5.0e-9; the published reactions are good to about 7e-8.
-        let errors: Vec<f64> = errors.iter().map(|e| e[n]).collect();
-        assert!(
-            errors[1] < 0.2 * errors[0] && errors[2] < bound,
-            "D01 {n}: {errors:?}"
-        );
+    let Some(file) = reference("validation/data/D01_D03_ivp_testset.json") else {
+        return;
+    };
+    let [q, rates] = ["q_005", "v_005"].map(|key| numbers(&file, &format!("/andrews/{key}")));
+    let settings = settings(Formulation::Si2, 1e-11, 1e-3);
+    let (simulation, errors) = andrews_errors(&settings, 0.05, [&q, &rates, &[]]);
+    row(
+        "D01 angles at 0.05 s",
+        &settings,
+        errors[0],
+        0.0,
+        &simulation,
+    );
+    assert!(errors[0] < 1e-7, "D01 at 0.05 s: {errors:?}");
+}
+
+#[test]
+fn linkages_without_friction_meet_the_reference() {
+    heading("C01, C02 without friction: angle and rate of the crank at 2 s");
+    let Some(file) = reference("validation/data/C01_C02_mechanisms.json") else {
+        return;
+    };
+    let cases = [
+        ("C01", slider_crank(None), 0.5),
+        ("C02", four_bar(None), 0.3),
+    ];
+    for (name, model, angle) in cases {
+        let exact = number(&file, &format!("/cases/{name}_frictionless/theta2"));
+        let exact_rate = number(&file, &format!("/cases/{name}_frictionless/omega2"));
+        let mut errors = Vec::new();
+        for tolerance in [1e-7, 1e-9, 1e-11] {
+            let settings = settings(Formulation::Si2, tolerance, 0.02);
+            let (simulation, drift) = watched(model.clone(), 2.0, &settings);
+            let turn = simulation.state().orientation(0).matrix();
+            let error = angle + turn[(1, 0)].atan2(turn[(0, 0)]) - exact;
+            let error = error - std::f64::consts::TAU * (error / std::f64::consts::TAU).round();
+            let rate = (angular_velocity(&simulation, 0).z - exact_rate).abs() / exact_rate;
+            row(name, &settings, error.abs().max(rate), drift, &simulation);
+            errors.push(error.abs().max(rate));
+        }
+        // Observed 7e-7 after six turns; the error falls as tolerance^(5/6).
+        falls(name, &errors, 1e-5);
     }
 }

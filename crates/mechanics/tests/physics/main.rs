@@ -7,8 +7,12 @@
 )]
 
 mod builder;
+mod convergence;
 mod friction_cases;
 mod frictionless;
+mod instants;
+mod invariance;
+mod redundancy;
 mod runs;
 mod shared;
 mod systems;

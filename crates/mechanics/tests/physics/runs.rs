@@ -116,9 +116,9 @@ pub(crate) fn turning_points(samples: &[Sample]) -> Vec<(f64, f64)> {
             let s = 0.5 * (low + high);
             let rate = a.rate + s * (2.0 * c2 + 3.0 * c3 * s);
             if rate * a.rate > 0.0 {
-                low = s
+                low = s;
             } else {
-                high = s
+                high = s;
             }
         }
         let s = low;

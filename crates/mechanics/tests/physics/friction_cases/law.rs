@@ -42,7 +42,7 @@ fn reference_rows() -> Vec<Row> {
     let block = Block::new(law(0.6, 0.5, 0.1, 0.01));
     let mut highest = 0.0_f64;
     let end = run(block.model(), &every(5.0, 50), &error(1e-9), |s| {
-        highest = highest.max(place(s))
+        highest = highest.max(place(s));
     });
     let case = "/cases/b_incline_rest_clamp";
     let off = (place(&end.snapshot()) - number(&file, &format!("{case}/x_end"))).abs();

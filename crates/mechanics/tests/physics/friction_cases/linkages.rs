@@ -89,7 +89,7 @@ pub(crate) fn rows() -> Vec<Row> {
     let law = |vs: f64| law(0.25, 0.2, vs, 1e-2 * vs);
     let case = &cases["C01a_slider_only"];
     let mut rows = study("C01a slider-crank", case, 2.2, 2, [8e-2, 4e-2], |vs| {
-        slider_crank(law(vs))
+        slider_crank(Some(law(vs)))
     });
     let case = &cases["C02a_fourbar_pins"];
     let name = "C02a four-bar, four pins";
