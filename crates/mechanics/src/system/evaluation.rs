@@ -1,0 +1,243 @@
+//! What depends on time and state alone: frames, measures, constraint equations.
+
+use super::System;
+use crate::constraint::{Form, Owner};
+use crate::equation::{Equation, Local, local_velocities};
+use crate::expression::Input;
+use crate::measure::{self, Order, Quantity};
+use crate::model::Level;
+use crate::scalar::Jet;
+use crate::state::{MarkerFrame, State};
+
+impl System {
+    fn measure_frames(&self, measure: usize) -> [MarkerFrame; 4] {
+        self.model.measures[measure]
+            .markers()
+            .map(|m| self.marker(m))
+    }
+
+    /// Value of a measure of displacement or velocity; rotations are continuous over many turns.
+    pub(crate) fn measure_value(&self, place: usize) -> f64 {
+        let [i, j, k, l] = self.measure_frames(place);
+        let quantity = self.model.measures[place].quantity;
+        let value = measure::value(quantity, [&i, &j, &k, &l]);
+        match quantity {
+            Quantity::Rotation(_) => nearest_turn(value, self.history.angles[place]),
+            _ => value,
+        }
+    }
+
+    /// Brings positions, constraints and measures up to date with `state`; with `derivatives` also
+    /// what [`System::assemble`] needs.
+    pub(crate) fn evaluate(&mut self, state: &State, derivatives: bool) {
+        self.time = state.time;
+        for (place, body) in self.bodies.iter_mut().enumerate() {
+            body.update(state, place, &self.model.bodies[place]);
+        }
+        for place in 0..self.model.measures.len() {
+            let order = self.model.measures[place].quantity.order();
+            if self.needed[place] && order != Order::Acceleration {
+                self.measures[place] = self.measure_value(place);
+            }
+        }
+        if derivatives || self.constraints.iter().any(|c| c.form == Form::Function) {
+            self.evaluate_slopes();
+        }
+        for place in 0..self.constraints.len() {
+            match self.constraints[place].form {
+                Form::Pair { equation, i, j } => {
+                    self.evaluate_pair(place, equation, i, j, derivatives);
+                }
+                Form::Function => self.evaluate_function(place),
+            }
+        }
+    }
+
+    fn evaluate_slopes(&mut self) {
+        for place in 0..self.model.measures.len() {
+            let quantity = self.model.measures[place].quantity;
+            if !self.needed[place] || quantity.order() == Order::Acceleration {
+                continue;
+            }
+            let [i, j, k, l] = self.measure_frames(place);
+            for (&body, slopes) in self.measure_bodies[place]
+                .iter()
+                .zip(&mut self.measure_slopes[place])
+            {
+                *slopes = measure::slopes(quantity, [&i, &j, &k, &l], body);
+                if !self.model.bodies[body].rotates {
+                    slopes[3..6].fill(0.0);
+                    slopes[9..12].fill(0.0);
+                }
+            }
+        }
+    }
+
+    fn evaluate_pair(
+        &mut self,
+        place: usize,
+        equation: Equation,
+        i: usize,
+        j: usize,
+        derivatives: bool,
+    ) {
+        let (i, j) = (self.marker(i), self.marker(j));
+        let row = equation.evaluate(&i, &j);
+        let constraint = &self.constraints[place];
+        let (mut value, mut rate, mut acceleration) = (row.value, 0.0, 0.0);
+        if let Owner::Motion(motion) = constraint.owner {
+            let drive = self.model.motions[motion]
+                .function
+                .run(&mut self.jets, |input| {
+                    debug_assert_eq!(input, Input::Time, "motions depend on time only");
+                    Jet {
+                        value: self.time,
+                        rate: 1.0,
+                        acceleration: 0.0,
+                    }
+                });
+            match constraint.level {
+                Level::Position => {
+                    value -= drive.value;
+                    if equation == Equation::AboutZ {
+                        value = nearest_turn(value, 0.0);
+                    }
+                    rate = drive.rate;
+                    acceleration = drive.acceleration;
+                }
+                Level::Velocity => {
+                    value = 0.0;
+                    rate = drive.value;
+                    acceleration = drive.rate;
+                }
+                Level::Acceleration => {
+                    value = 0.0;
+                    acceleration = drive.value;
+                }
+            }
+        }
+        let evaluated = &mut self.evaluated[place];
+        evaluated.error = value;
+        evaluated.rate = rate;
+        evaluated.acceleration = acceleration - row.bias;
+        evaluated.local = row.jacobian;
+        self.release_point_masses(place);
+        let evaluated = &mut self.evaluated[place];
+        let sides = [i.body, j.body];
+        spread(&sides, &evaluated.local, &mut evaluated.jacobian);
+        if derivatives {
+            evaluated.stiffness = equation.stiffness(&i, &j);
+            let u = local_velocities(&i, &j);
+            let change = evaluated.stiffness.tr_mul(&u);
+            spread(&sides, &change, &mut evaluated.rate_change);
+        }
+    }
+
+    /// A point mass does not turn: its rotations take no part.
+    fn release_point_masses(&mut self, place: usize) {
+        if let Form::Pair { i, j, .. } = self.constraints[place].form {
+            for (marker, rotation) in [(i, 3), (j, 9)] {
+                let body = self.model.markers[marker].body;
+                if body.is_some_and(|body| !self.model.bodies[body].rotates) {
+                    self.evaluated[place]
+                        .local
+                        .fixed_rows_mut::<3>(rotation)
+                        .fill(0.0);
+                }
+            }
+        }
+    }
+
+    /// A general constraint: value and gradient by measures, rates along the motion by jets.
+    fn evaluate_function(&mut self, place: usize) {
+        let Owner::General(general) = self.constraints[place].owner else {
+            return;
+        };
+        let function = &self.model.constraints[general].function;
+        let time = self.time;
+        let measures = &self.measures;
+        let value = function.evaluate(&mut self.registers, |input| read(input, time, measures));
+        let evaluated = &mut self.evaluated[place];
+        evaluated.error = value;
+        for block in &mut evaluated.jacobian {
+            block.fill(0.0);
+        }
+        let bodies = &self.constraints[place].bodies;
+        function.gradient(&self.registers, &mut self.adjoints, |input, slope| {
+            if let Input::Measure(measure) = input {
+                let motions = self.measure_bodies[measure]
+                    .iter()
+                    .zip(&self.measure_slopes[measure]);
+                for (body, slopes) in motions {
+                    if let Ok(block) = bodies.binary_search(body) {
+                        for k in 0..6 {
+                            evaluated.jacobian[block][k] += slope * slopes[k];
+                        }
+                    }
+                }
+            }
+        });
+        let model = &self.model;
+        let frames = &self.bodies;
+        let jet = function.run(&mut self.jets, |input| match input {
+            Input::Measure(measure) => {
+                let [i, j, k, l] = model.measures[measure]
+                    .markers()
+                    .map(|m| MarkerFrame::new(&model.markers[m], frames));
+                let mut jet = measure::jet(model.measures[measure].quantity, [&i, &j, &k, &l]);
+                jet.value = measures[measure];
+                jet
+            }
+            Input::Time => Jet {
+                value: time,
+                rate: 1.0,
+                acceleration: 0.0,
+            },
+            Input::Result(_) => Jet {
+                value: f64::NAN,
+                rate: 0.0,
+                acceleration: 0.0,
+            },
+        });
+        // G u + ∂g/∂t is the rate of the jet; what remains beside G u is prescribed.
+        let along: f64 = bodies
+            .iter()
+            .zip(&evaluated.jacobian)
+            .map(|(&body, row)| {
+                let frame = &frames[body];
+                (0..3)
+                    .map(|k| row[k] * frame.velocity[k] + row[3 + k] * frame.omega[k])
+                    .sum::<f64>()
+            })
+            .sum();
+        evaluated.rate = along - jet.rate;
+        evaluated.acceleration = -jet.acceleration;
+    }
+}
+
+/// `value` plus the whole turns that bring it closest to `reference`.
+fn nearest_turn(value: f64, reference: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    value + turn * ((reference - value) / turn).round()
+}
+
+pub(super) fn read(input: Input, time: f64, measures: &[f64]) -> f64 {
+    match input {
+        Input::Time => time,
+        Input::Measure(measure) => measures[measure],
+        // Results are refused in equations when the model is built.
+        Input::Result(_) => f64::NAN,
+    }
+}
+
+fn spread(sides: &[Option<usize>; 2], local: &Local, blocks: &mut [[f64; 6]]) {
+    let mut block = 0;
+    for (side, body) in sides.iter().enumerate() {
+        if body.is_some() {
+            for k in 0..6 {
+                blocks[block][k] = local[6 * side + k];
+            }
+            block += 1;
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! The right-hand side of the equations of motion: inertia and the sum of all forces.
+
+use nalgebra::Vector3;
+
+use super::System;
+use super::evaluation::read;
+use super::single_force::direction;
+use crate::equation::Local;
+use crate::expression::Program;
+use crate::model::SingleForce;
+use crate::state::MarkerFrame;
+
+impl System {
+    /// `M w` in ground axes: mass and inertia times six numbers a body.
+    pub(crate) fn mass_times(&self, w: &[f64], out: &mut [f64]) {
+        for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
+            let w = &w[6 * place..6 * place + 6];
+            let out = &mut out[6 * place..6 * place + 6];
+            for k in 0..3 {
+                out[k] = body.mass * w[k];
+            }
+            let turn = frame.inertia * Vector3::new(w[3], w[4], w[5]);
+            out[3..].copy_from_slice(turn.as_slice());
+        }
+    }
+
+    /// Sum of all forces `Q + f + Gᵀλ` at the state evaluated last.
+    pub(crate) fn forces(&mut self, multipliers: &[f64], out: &mut [f64]) {
+        for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
+            let weight = body.mass * self.model.gravity;
+            let gyroscopic = -frame.omega.cross(&(frame.inertia * frame.omega));
+            out[6 * place..6 * place + 3].copy_from_slice(weight.as_slice());
+            out[6 * place + 3..6 * place + 6].copy_from_slice(gyroscopic.as_slice());
+        }
+        for (row, &place) in self.rows.iter().enumerate() {
+            let evaluated = &self.evaluated[place];
+            for (&body, block) in self.constraints[place]
+                .bodies
+                .iter()
+                .zip(&evaluated.jacobian)
+            {
+                for k in 0..6 {
+                    out[6 * body + k] += multipliers[row] * block[k];
+                }
+            }
+        }
+        for place in 0..self.model.forces.len() {
+            let (i, j) = self.force_markers(place);
+            let value = self.force_value(place);
+            let direction = direction(self.model.forces[place].kind, &i, &j);
+            self.add_local(&[i.body, j.body], &(value * direction), out);
+        }
+        for place in 0..self.model.frictions.len() {
+            let (element, i, j) = self.friction(place, multipliers);
+            self.add_local(&[i.body, j.body], &element.force, out);
+        }
+    }
+
+    fn add_local(&self, sides: &[Option<usize>; 2], local: &Local, out: &mut [f64]) {
+        for (side, body) in sides.iter().enumerate() {
+            if let Some(body) = *body {
+                let count = if self.model.bodies[body].rotates {
+                    6
+                } else {
+                    3
+                };
+                for k in 0..count {
+                    out[6 * body + k] += local[6 * side + k];
+                }
+            }
+        }
+    }
+
+    pub(super) fn force_markers(&self, place: usize) -> (MarkerFrame, MarkerFrame) {
+        let force = &self.model.forces[place];
+        (self.marker(force.i), self.marker(force.j))
+    }
+
+    /// Value of a single-component force at the state evaluated last.
+    pub(crate) fn force_value(&mut self, place: usize) -> f64 {
+        let (time, measures) = (self.time, &self.measures);
+        let function: &Program = &self.model.forces[place].function;
+        function.evaluate(&mut self.registers, |input| read(input, time, measures))
+    }
+
+    /// Generalised force of a single-component force of one unit, for outputs.
+    pub(crate) fn force_direction(&self, force: &SingleForce) -> Local {
+        direction(force.kind, &self.marker(force.i), &self.marker(force.j))
+    }
+}

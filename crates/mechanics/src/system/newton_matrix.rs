@@ -1,0 +1,168 @@
+//! The Newton matrix that all solvers share; see the description of [`super`].
+
+use nalgebra::{Matrix3, Vector3};
+use numerics::linear::Matrix;
+
+use super::single_force::{direction, direction_stiffness};
+use super::{Rows, System};
+use crate::constraint::Form;
+use crate::equation::{Local, LocalMatrix};
+use crate::expression::Input;
+use crate::joint_friction::Share;
+use crate::model::Level;
+use crate::rotation::skew;
+
+impl System {
+    /// Builds the Newton matrix of the module's description at the state evaluated last with
+    /// derivatives; `w` is what multiplies the mass matrix in the residual (`u̇` times `γ`).
+    pub(crate) fn assemble(
+        &mut self,
+        rows: Rows,
+        gamma: f64,
+        w: &[f64],
+        multipliers: &[f64],
+        matrix: &mut Matrix,
+    ) {
+        matrix.start();
+        self.assemble_bodies(gamma, w, matrix);
+        let n = self.velocity_count();
+        for (row, &place) in self.rows.iter().enumerate() {
+            let evaluated = &self.evaluated[place];
+            let constraint = &self.constraints[place];
+            let moves = rows == Rows::Velocity && constraint.level == Level::Position
+                || constraint.level == Level::Velocity;
+            for (block, &body) in constraint.bodies.iter().enumerate() {
+                for k in 0..6 {
+                    let g = evaluated.jacobian[block][k];
+                    let change = evaluated.rate_change[block][k];
+                    let rate = if moves { gamma * change } else { 0.0 };
+                    matrix.add(n + row, 6 * body + k, g + rate);
+                    matrix.add(6 * body + k, n + row, -g);
+                }
+            }
+            if let Form::Pair { i, j, .. } = constraint.form {
+                let sides = [i, j].map(|m| self.model.markers[m].body);
+                let scale = -gamma * gamma * multipliers[row];
+                self.add_local_matrix(&sides, &evaluated.stiffness, scale, matrix);
+            }
+        }
+        self.assemble_forces(gamma, matrix);
+        self.assemble_frictions(gamma, multipliers, matrix);
+        matrix.compress();
+    }
+
+    fn assemble_bodies(&self, gamma: f64, w: &[f64], matrix: &mut Matrix) {
+        for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
+            let first = 6 * place;
+            for k in 0..3 {
+                matrix.add(first + k, first + k, body.mass);
+            }
+            let inertia = frame.inertia;
+            // δ(I w) = δθ × I w − I (δθ × w), the turning of the inertia with the body.
+            let turning = |w: &Vector3<f64>| -skew(&(inertia * w)) + inertia * skew(w);
+            let omega = frame.omega;
+            let w = Vector3::from_column_slice(&w[first + 3..first + 6]);
+            // Q = −ω × I ω
+            let by_omega: Matrix3<f64> = skew(&(inertia * omega)) - skew(&omega) * inertia;
+            let by_theta = -skew(&omega) * turning(&omega);
+            let block = inertia + gamma * (turning(&w) - by_omega) - gamma * gamma * by_theta;
+            for r in 0..3 {
+                for c in 0..3 {
+                    matrix.add(first + 3 + r, first + 3 + c, block[(r, c)]);
+                }
+            }
+        }
+    }
+
+    fn assemble_forces(&mut self, gamma: f64, matrix: &mut Matrix) {
+        for place in 0..self.model.forces.len() {
+            let (i, j) = self.force_markers(place);
+            let value = self.force_value(place);
+            let force = &self.model.forces[place];
+            let direction = direction(force.kind, &i, &j);
+            let turning = direction_stiffness(force.kind, &i, &j);
+            let sides = [i.body, j.body];
+            self.add_local_matrix(&sides, &turning, -gamma * gamma * value, matrix);
+            force
+                .function
+                .gradient(&self.registers, &mut self.adjoints, |input, slope| {
+                    let Input::Measure(measure) = input else {
+                        return;
+                    };
+                    let motions = self.measure_bodies[measure]
+                        .iter()
+                        .zip(&self.measure_slopes[measure]);
+                    for (&body, slopes) in motions {
+                        for k in 0..6 {
+                            let change =
+                                slope * (gamma * gamma * slopes[k] + gamma * slopes[6 + k]);
+                            for (side, on) in sides.iter().enumerate() {
+                                let Some(on) = *on else { continue };
+                                for r in 0..6 {
+                                    let entry = -direction[6 * side + r] * change;
+                                    matrix.add(6 * on + r, 6 * body + k, entry);
+                                }
+                            }
+                        }
+                    }
+                });
+        }
+    }
+
+    fn assemble_frictions(&self, gamma: f64, multipliers: &[f64], matrix: &mut Matrix) {
+        let n = self.velocity_count();
+        for place in 0..self.model.frictions.len() {
+            let (element, i, j) = self.friction(place, multipliers);
+            let sides = [i.body, j.body];
+            let turning = element.by_reaction.fixed_columns::<3>(3)
+                * self.moment_change(place, &i, &j, multipliers);
+            let moving =
+                gamma * element.by_velocity + gamma * gamma * (element.by_position + turning);
+            self.add_local_matrix(&sides, &moving, -1.0, matrix);
+            for contribution in &self.reactions[place] {
+                let Some(row) = self.constraints[contribution.constraint].row else {
+                    continue;
+                };
+                let by_multiplier: Local = match contribution.share {
+                    Share::Force(axis) => element.by_reaction.column(axis).into_owned(),
+                    Share::Moment => {
+                        let axis = self.moment_axis(contribution.constraint, &j);
+                        element.by_reaction.fixed_columns::<3>(3) * axis
+                    }
+                };
+                for (side, body) in sides.iter().enumerate() {
+                    let Some(body) = *body else { continue };
+                    for r in 0..6 {
+                        matrix.add(6 * body + r, n + row, -by_multiplier[6 * side + r]);
+                    }
+                }
+            }
+        }
+    }
+
+    fn add_local_matrix(
+        &self,
+        sides: &[Option<usize>; 2],
+        local: &LocalMatrix,
+        scale: f64,
+        matrix: &mut Matrix,
+    ) {
+        let turns = |body: usize| self.model.bodies[body].rotates;
+        for (row_side, row_body) in sides.iter().enumerate() {
+            let Some(row_body) = *row_body else { continue };
+            for (column_side, column_body) in sides.iter().enumerate() {
+                let Some(column_body) = *column_body else {
+                    continue;
+                };
+                for r in 0..6 {
+                    for c in 0..6 {
+                        let free = (r < 3 || turns(row_body)) && (c < 3 || turns(column_body));
+                        let entry = local[(6 * row_side + r, 6 * column_side + c)];
+                        let value = if free { scale * entry } else { 0.0 };
+                        matrix.add(6 * row_body + r, 6 * column_body + c, value);
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Reactions from multipliers, and the friction that they cause.
+
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use super::System;
+use crate::constraint::{Form, Owner};
+use crate::equation::Equation;
+use crate::joint_friction::{self, Element, Share};
+use crate::rotation::skew;
+use crate::snapshot::Wrench;
+use crate::state::MarkerFrame;
+
+impl System {
+    /// Reaction of a joint or motion on the part of its marker I, at the origin of I, ground axes.
+    pub(crate) fn reaction_on_i(&self, owner: Owner, multipliers: &[f64]) -> Wrench {
+        let mut wrench = Wrench::default();
+        let constraints = self.constraints.iter().zip(&self.evaluated);
+        for (constraint, evaluated) in constraints.filter(|(c, _)| c.owner == owner) {
+            let (Form::Pair { i, .. }, Some(row)) = (constraint.form, constraint.row) else {
+                continue;
+            };
+            let local = multipliers[row] * evaluated.local;
+            let force = Vector3::new(local[0], local[1], local[2]);
+            let torque = Vector3::new(local[3], local[4], local[5]);
+            wrench.force += force;
+            wrench.torque += torque - self.marker(i).arm.cross(&force);
+        }
+        wrench
+    }
+
+    /// Reaction of a friction's joint on I at marker I, along the axes of J.
+    fn reaction(
+        &self,
+        place: usize,
+        j: &MarkerFrame,
+        multipliers: &[f64],
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for contribution in &self.reactions[place] {
+            let Some(row) = self.constraints[contribution.constraint].row else {
+                continue;
+            };
+            match contribution.share {
+                Share::Force(axis) => force[axis] += multipliers[row],
+                Share::Moment => {
+                    moment += multipliers[row] * self.moment_axis(contribution.constraint, j);
+                }
+            }
+        }
+        (force, moment)
+    }
+
+    /// Direction along the axes of J of the moment that an equation between axes applies to I.
+    pub(super) fn moment_axis(&self, constraint: usize, j: &MarkerFrame) -> Vector3<f64> {
+        j.axes.transpose() * self.evaluated[constraint].local.fixed_rows::<3>(3)
+    }
+
+    /// Change of the reaction moment along the axes of J with the local motions.
+    pub(super) fn moment_change(
+        &self,
+        place: usize,
+        i: &MarkerFrame,
+        j: &MarkerFrame,
+        multipliers: &[f64],
+    ) -> SMatrix<f64, 3, 12> {
+        let mut by_turn = Matrix3::zeros();
+        for contribution in &self.reactions[place] {
+            let constraint = &self.constraints[contribution.constraint];
+            let Form::Pair {
+                equation: Equation::Axes(k, l),
+                ..
+            } = constraint.form
+            else {
+                continue;
+            };
+            if let Some(row) = constraint.row {
+                // δ(A_Jᵀ (a × b)) = A_Jᵀ b× a× (δθ_I − δθ_J), as b is fixed to J.
+                by_turn += multipliers[row] * skew(&j.axis(l)) * skew(&i.axis(k));
+            }
+        }
+        let by_turn = j.axes.transpose() * by_turn;
+        let mut change = SMatrix::<f64, 3, 12>::zeros();
+        change.fixed_columns_mut::<3>(3).copy_from(&by_turn);
+        change.fixed_columns_mut::<3>(9).copy_from(&-by_turn);
+        change
+    }
+
+    /// Friction element `place` with derivatives, and the frames of its joint's markers.
+    pub(crate) fn friction(
+        &self,
+        place: usize,
+        multipliers: &[f64],
+    ) -> (Element, MarkerFrame, MarkerFrame) {
+        let friction = &self.model.frictions[place];
+        let joint = &self.model.joints[friction.joint];
+        let (i, j) = (self.marker(joint.i), self.marker(joint.j));
+        let (force, moment) = self.reaction(place, &j, multipliers);
+        let memory = &self.history.frictions[place];
+        let element =
+            joint_friction::evaluate(friction, memory, &i, &j, force.into(), moment.into());
+        (element, i, j)
+    }
+}
