@@ -257,10 +257,10 @@ fn a_model_that_cannot_be_assembled_is_4() {
 
 #[test]
 fn a_failed_integration_is_5_and_keeps_the_results() {
-    // The force goes to infinity at 0.5.
+    // The torque is no number after 0.5.
     let infinite = PENDULUM.replace(
         "END",
-        "SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=1/(0.5-TIME)**3\nEND",
+        "SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=SQRT(0.5-TIME)\nEND",
     );
     let folder = folder("infinite", &[("infinite.adm", infinite.as_str())]);
     let output = stiction(
@@ -268,11 +268,7 @@ fn a_failed_integration_is_5_and_keeps_the_results() {
         &["run", "infinite.adm", "--end", "1", "--steps", "100"],
     );
     assert_eq!(code(&output), 5, "{}", errors(&output));
-    assert!(
-        errors(&output).contains("at time 0.4"),
-        "{}",
-        errors(&output)
-    );
+    assert!(errors(&output).contains("SFORCE/1"), "{}", errors(&output));
     let results = std::fs::read_to_string(folder.join("infinite-run/infinite.res")).unwrap();
     assert!(results.matches("<Step type=\"dynamic\">").count() > 30);
     assert!(results.contains("runStatus=\"Integration failed\""));

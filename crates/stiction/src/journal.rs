@@ -17,6 +17,8 @@ pub(crate) struct Journal<W: Write> {
     writer: MessageWriter<W>,
     path: String,
     warnings: usize,
+    /// Processor time at the start of the run, seconds.
+    processor: Option<f64>,
     /// Frictions whose overlap has been warned about.
     exhausted: HashSet<usize>,
 }
@@ -27,6 +29,7 @@ impl<W: Write> Journal<W> {
             writer,
             path,
             warnings: 0,
+            processor: processor_time(),
             exhausted: HashSet::new(),
         }
     }
@@ -218,7 +221,8 @@ impl<W: Write> Journal<W> {
         if !table.is_empty() {
             self.note(&format!("\nFriction:\n{table}"))?;
         }
-        let cpu = processor_time().unwrap_or(elapsed);
+        let processor = processor_time().zip(self.processor);
+        let cpu = processor.map_or(elapsed, |(now, start)| now - start);
         let written = match failure {
             Some(text) => self
                 .writer

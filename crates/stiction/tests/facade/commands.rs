@@ -1,0 +1,131 @@
+//! Command files: what their commands do to a run.
+
+use std::path::{Path, PathBuf};
+
+use stiction::{Outcome, Project, RunOptions};
+
+use crate::shared::run;
+
+const SLIDER: &str = "A slider pushed by a variable
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=1
+VARIABLE/1, FUNCTION=6
+SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=VARVAL(1)
+INTEGRATOR/GSTIFF, SI2, ERROR=1E-8
+END
+";
+
+/// The slider with a command file of that name.
+fn with_commands(name: &str, commands: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-input"));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("slider.adm"), SLIDER).unwrap();
+    let file = folder.join(format!("{name}.acf"));
+    std::fs::write(&file, commands).unwrap();
+    file
+}
+
+#[test]
+fn changes_act_from_their_command_on() {
+    let commands = "
+FILE/MODEL=slider
+SIMULATE/INITIAL_CONDITIONS
+SIMULATE/DYNAMIC, END=1, STEPS=4
+! A function that reads what the model did not read before.
+VARIABLE/1, FUNCTION=-8*VZ(20)
+SIMULATE/TRANSIENT, DURATION=1, DTOUT=0.25
+SFORCE/1, FUNCTION=0
+SIMULATE/DYNAMIC, END=3, STEPS=4
+STOP
+SIMULATE/DYNAMIC, END=99, STEPS=4
+";
+    let project = Project::load(&with_commands("changes", commands)).unwrap();
+    let (report, results) = run(&project, "changes", RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed);
+    assert_eq!(
+        (report.simulations, report.outputs, report.time),
+        (3, 12, 3.0)
+    );
+    let speed = |block: &str| {
+        let column = results.column("PART_2_XFORM.VZ").unwrap();
+        results.block(block).unwrap().column(column).last().unwrap()
+    };
+    // 3 m/s^2 for a second, then a decay at a rate of 4 1/s, then nothing.
+    assert!((speed("dynamic_001") - 3.0).abs() < 1e-6);
+    let decayed = 3.0 * (-4.0_f64).exp();
+    assert!((speed("dynamic_002") - decayed).abs() < 1e-6);
+    assert!((speed("dynamic_003") - decayed).abs() < 1e-6);
+    assert_eq!(results.block("initialConditions_001").unwrap().times, [0.0]);
+    assert_eq!(results.status.as_deref(), Some("Successful"));
+}
+
+#[test]
+fn what_a_command_asks_for_wrongly_is_known_before_the_run() {
+    let cases = [
+        (
+            "VARIABLE/1, FUNCTION=FX(20)",
+            "before:3:1: error",
+            "may read",
+        ),
+        ("VARIABLE/7, FUNCTION=1", "before:3:1: error", "VARIABLE/7"),
+        (
+            "SIMULATE/DYNAMIC, END=0.5, DTOUT=1E-12",
+            "before:3:1",
+            "too many",
+        ),
+    ];
+    for (command, place, word) in cases {
+        let commands =
+            format!("\nFILE/MODEL=slider\n{command}\nSIMULATE/DYNAMIC, END=1, STEPS=4\n");
+        let project = Project::load(&with_commands("before", &commands)).unwrap();
+        let text = stiction::Session::new(&project).unwrap_err().to_string();
+        let text = text.replace("before.acf", "before");
+        assert!(
+            text.contains(place) && text.contains(word),
+            "{command}: {text}"
+        );
+    }
+    let commands = "\nSIMULATE/DYNAMIC, END=1, STEPS=4\nFILE/MODEL=slider\n";
+    let error = Project::load(&with_commands("early", commands))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("early.acf:2:1: error") && error.contains("before any model"),
+        "{error}"
+    );
+}
+
+#[test]
+fn command_files_call_others_but_not_themselves() {
+    let inner = with_commands("inner", "\nSIMULATE/DYNAMIC, END=1, STEPS=4\n");
+    let folder = inner.parent().unwrap();
+    let outer = folder.join("outer.acf");
+    std::fs::write(&outer, "\nFILE/MODEL=slider\nFILE/COMMAND=inner\n").unwrap();
+    let project = Project::load(&outer).unwrap();
+    let (report, _) = run(&project, "called", RunOptions::default());
+    assert_eq!(
+        (report.outcome, report.simulations),
+        (Outcome::Completed, 1)
+    );
+    std::fs::write(&outer, "\nFILE/MODEL=slider\nFILE/COMMAND=outer\n").unwrap();
+    let error = Project::load(&outer).unwrap_err().to_string();
+    assert!(error.contains("outer.acf:3:1: error"), "{error}");
+}
+
+#[test]
+fn split_runs_agree_with_one() {
+    let whole = "\nFILE/MODEL=slider\nSIMULATE/DYNAMIC, END=1, STEPS=8\n";
+    let split = "\nFILE/MODEL=slider\nSIMULATE/DYNAMIC, END=0.5, STEPS=4\n\
+                 SIMULATE/DYNAMIC, END=1, STEPS=4\n";
+    let last = |name: &str, commands: &str| {
+        let project = Project::load(&with_commands(name, commands)).unwrap();
+        let (_, results) = run(&project, name, RunOptions::default());
+        *results.get("PART_2_XFORM.Z").unwrap().last().unwrap()
+    };
+    // Exactly 1.5 m; the tolerance is 1e-8 a step.
+    assert!((last("whole", whole) - 1.5).abs() < 1e-7);
+    assert!((last("split", split) - 1.5).abs() < 1e-7);
+}
