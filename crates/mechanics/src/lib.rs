@@ -1,7 +1,7 @@
 //! Rigid bodies, joints, forces and friction as one set of equations in time.
 //!
 //! A [`model::Model`] lists what is given. [`Simulation`] assembles it, integrates it and shows
-//! solved instants as [`Snapshot`]s. The equations are in `system.rs`, one implicit step in
+//! solved instants as [`Snapshot`]s. The equations are in `system`, one implicit step in
 //! `dynamics.rs`, one instant in `instant.rs`; frames, signs and symbols are those of
 //! `docs/notation.md`.
 //!

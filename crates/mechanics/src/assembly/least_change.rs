@@ -1,0 +1,80 @@
+//! The smallest change that meets linear equations.
+
+use numerics::linear::{Matrix, SparseLu};
+
+use super::rows::Row;
+
+/// Diagonal of the multipliers that makes redundant equations harmless.
+pub(super) const REGULARISATION: f64 = 1e-10;
+
+/// The smallest weighted change that meets linear equations: `[W −Gᵀ; G ε] [x; μ] = [W x₀; b]`.
+pub(super) struct Least {
+    n: usize,
+    rows: usize,
+    matrix: Matrix,
+    factors: SparseLu,
+}
+
+impl Least {
+    pub(super) fn new(n: usize, rows: usize) -> Self {
+        Self {
+            n,
+            rows,
+            matrix: Matrix::new(n + rows),
+            factors: SparseLu::new(),
+        }
+    }
+
+    fn factor<'a>(
+        &mut self,
+        rows: impl Iterator<Item = &'a Row>,
+        weights: &[f64],
+        regularisation: f64,
+    ) {
+        self.matrix.start();
+        for (k, weight) in weights.iter().enumerate() {
+            self.matrix.add(k, k, *weight);
+        }
+        for (place, row) in rows.enumerate() {
+            let place = self.n + place;
+            self.matrix.add(place, place, regularisation);
+            for (body, block) in &row.blocks {
+                for (k, g) in block.iter().enumerate() {
+                    self.matrix.add(place, 6 * body + k, *g);
+                    self.matrix.add(6 * body + k, place, -g);
+                }
+            }
+        }
+        self.matrix.compress();
+        // The diagonal is positive, so the matrix has an inverse whatever the rows are.
+        let factored = self.factors.factor(&self.matrix);
+        debug_assert!(factored.is_ok(), "a regularised matrix has an inverse");
+    }
+
+    pub(super) fn solve(
+        &mut self,
+        rows: &[Row],
+        weights: &[f64],
+        wanted: &[f64],
+        right: &[f64],
+        regularisation: f64,
+    ) -> Vec<f64> {
+        self.factor(rows.iter(), weights, regularisation);
+        let mut solution: Vec<f64> = wanted.iter().zip(weights).map(|(x, w)| x * w).collect();
+        solution.extend_from_slice(right);
+        if self.factors.fill() > 0 {
+            self.factors.solve(&mut solution);
+        }
+        solution.truncate(self.n);
+        solution
+    }
+
+    /// Coefficients with which `rows` combine to `target` as nearly as possible.
+    pub(super) fn combination(&mut self, rows: &[&Row], target: &[f64]) -> Vec<f64> {
+        self.factor(rows.iter().copied(), &vec![1.0; self.n], REGULARISATION);
+        let mut solution = target.to_vec();
+        solution.resize(self.n + self.rows, 0.0);
+        self.factors.solve(&mut solution);
+        solution.split_off(self.n).into_iter().map(|c| -c).collect()
+    }
+}

@@ -1,0 +1,83 @@
+//! Which constraint equations depend on others, and whose reactions are then not unique.
+
+use numerics::rank::independent_rows;
+
+use super::least_change::Least;
+use super::rows::{Row, expand};
+use crate::constraint::Owner;
+use crate::system::System;
+
+/// What is left of a row, relative to its length, for it to count as independent. Datasets carry
+/// six to ten digits, so equations that are redundant by design are dependent to that accuracy.
+const RANK_TOLERANCE: f64 = 1e-5;
+
+impl System {
+    /// Which equations to keep: those of joints that lock most come first, so that the equation
+    /// dropped is that of the element that is most likely meant as the extra one.
+    pub(super) fn independent(&mut self, length: f64) -> (Vec<bool>, Vec<usize>) {
+        let count = |owner: Owner| self.constraints.iter().filter(|c| c.owner == owner).count();
+        let mut order: Vec<(usize, usize)> = self
+            .constraints
+            .iter()
+            .enumerate()
+            .map(|(place, c)| {
+                let rank = match c.owner {
+                    Owner::Joint(_) => 6 - count(c.owner).min(6),
+                    Owner::Motion(_) => 7,
+                    Owner::General(_) => 8,
+                };
+                (rank, place)
+            })
+            .collect();
+        order.sort_unstable();
+        let rows = self.assembly_rows(&[], length);
+        let n = self.velocity_count();
+        let full: Vec<Vec<f64>> = order
+            .iter()
+            .map(|&(_, place)| expand(&rows[place], n))
+            .collect();
+        let kept = independent_rows(&full, RANK_TOLERANCE);
+        let mut active = vec![false; self.constraints.len()];
+        for (&(_, place), kept) in order.iter().zip(kept) {
+            active[place] = kept;
+        }
+        (active, order.into_iter().map(|(_, place)| place).collect())
+    }
+
+    /// Frictions of joints whose multipliers take part in a dependency.
+    pub(super) fn not_unique(&mut self, active: &[bool], length: f64) -> Vec<usize> {
+        let n = self.velocity_count();
+        let all: Vec<bool> = vec![true; active.len()];
+        self.set_active(&all);
+        let rows = self.assembly_rows(&[], length);
+        self.set_active(active);
+        let dropped: Vec<usize> = (0..active.len()).filter(|&place| !active[place]).collect();
+        if dropped.is_empty() || self.model.frictions.is_empty() {
+            return Vec::new();
+        }
+        let kept: Vec<usize> = (0..active.len()).filter(|&place| active[place]).collect();
+        let kept_rows: Vec<&Row> = kept.iter().map(|&place| &rows[place]).collect();
+        let mut touched = vec![false; self.model.joints.len()];
+        let mut touch = |place: usize| {
+            if let Owner::Joint(joint) = self.constraints[place].owner {
+                touched[joint] = true;
+            }
+        };
+        let mut least = Least::new(n, kept.len());
+        for &place in &dropped {
+            touch(place);
+            // The dropped row as a combination of kept ones: rest + Gᵀ c = row, G rest = 0.
+            let coefficients = least.combination(&kept_rows, &expand(&rows[place], n));
+            for (&place, c) in kept.iter().zip(coefficients) {
+                if c.abs() > 1e-6 {
+                    touch(place);
+                }
+            }
+        }
+        let frictions = self.model.frictions.iter().enumerate();
+        frictions
+            .filter(|(_, friction)| touched[friction.joint])
+            .map(|(place, _)| place)
+            .collect()
+    }
+}
