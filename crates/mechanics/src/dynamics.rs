@@ -90,6 +90,20 @@ pub(crate) struct Scales {
     pub(crate) rate: f64,
 }
 
+impl Scales {
+    /// Raises the rate to that of the velocities.
+    pub(crate) fn observe(&mut self, velocities: &[f64]) {
+        for (k, u) in velocities.iter().enumerate() {
+            let rate = if k % 6 < 3 {
+                u.abs() / self.length
+            } else {
+                u.abs()
+            };
+            self.rate = self.rate.max(rate);
+        }
+    }
+}
+
 /// The step equations with their storage.
 #[derive(Clone, Debug)]
 pub(crate) struct Dynamics {
@@ -169,18 +183,6 @@ impl Dynamics {
         self.scales = scales;
         self.factored = None;
         self.rate = 0.0;
-    }
-
-    /// Raises the rate scale to that of the present velocities.
-    pub(crate) fn observe_rates(&mut self, velocities: &[f64]) {
-        for (k, u) in velocities.iter().enumerate() {
-            let rate = if k % 6 < 3 {
-                u.abs() / self.scales.length
-            } else {
-                u.abs()
-            };
-            self.scales.rate = self.scales.rate.max(rate);
-        }
     }
 
     /// Positions from velocities: `x = x̂ + γ u + ν`.
@@ -501,8 +503,6 @@ impl bdf::System for Dynamics {
         self.previous.clone_from(&self.system.history.frictions);
         self.system.accept_frictions(step.size);
         self.system.remember_angles();
-        let u = std::mem::take(&mut self.state);
-        self.observe_rates(u.velocities());
-        self.state = u;
+        self.scales.observe(self.state.velocities());
     }
 }

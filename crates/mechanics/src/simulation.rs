@@ -285,7 +285,7 @@ impl Simulation {
             Formulation::I3 => INDEX3_SHARE * settings.error,
         };
         dynamics.newton_iterations = settings.newton_iterations;
-        dynamics.observe_rates(self.state.velocities());
+        dynamics.scales.observe(self.state.velocities());
         dynamics.multipliers.copy_from_slice(&self.multipliers);
         bdf.set_settings(limits);
         let slope = slope(&self.state, &self.accelerations);
@@ -394,7 +394,7 @@ impl Simulation {
         let ahead = 1e-3 * longest;
         let mut later = self.clone();
         later.state.time += ahead;
-        let step: Vec<f64> = self.system_step(ahead);
+        let step: Vec<f64> = self.state.velocities().iter().map(|u| u * ahead).collect();
         later.state.displace(&step);
         for (u, a) in later
             .state
@@ -426,10 +426,6 @@ impl Simulation {
         } else {
             ahead
         }
-    }
-
-    fn system_step(&self, time: f64) -> Vec<f64> {
-        self.state.velocities().iter().map(|u| u * time).collect()
     }
 
     fn run_error(&self, error: &bdf::Error<Failure>) -> RunError {
