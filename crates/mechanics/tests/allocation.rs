@@ -10,12 +10,19 @@ use mechanics::{Formulation, Observer, Settings, Simulation, Snapshot, StepRepor
 use nalgebra::{Matrix3, Vector3};
 
 fn label(statement: &'static str, id: u32) -> Label {
-    Label { statement, id, name: String::new() }
+    Label {
+        statement,
+        id,
+        name: String::new(),
+    }
 }
 
 /// Three rods that hang on hinges with friction.
 fn chain() -> Model {
-    let mut model = Model { gravity: Vector3::new(0.0, 0.0, -9.81), ..Model::default() };
+    let mut model = Model {
+        gravity: Vector3::new(0.0, 0.0, -9.81),
+        ..Model::default()
+    };
     // The hinges turn about the ground's y axis.
     let hinge = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0);
     for k in 0..3_usize {
@@ -38,8 +45,18 @@ fn chain() -> Model {
             _ => (Some(k - 1), Vector3::new(0.5, 0.0, 0.0)),
         };
         let offset_i = Vector3::new(-0.5, 0.0, 0.0);
-        model.markers.push(Marker { id: 2 * id, body: Some(k), offset: offset_i, axes: hinge });
-        model.markers.push(Marker { id: 2 * id + 1, body, offset, axes: hinge });
+        model.markers.push(Marker {
+            id: 2 * id,
+            body: Some(k),
+            offset: offset_i,
+            axes: hinge,
+        });
+        model.markers.push(Marker {
+            id: 2 * id + 1,
+            body,
+            offset,
+            axes: hinge,
+        });
         model.joints.push(Joint {
             label: label("JOINT", id),
             kind: JointKind::Revolute,

@@ -1,11 +1,15 @@
 //! Single instants against formulas by hand: accelerations, reactions and friction together.
 
+use mechanics::expression::Program;
+use mechanics::model::{ForceKind, FrictionJoint, JointKind};
 use mechanics::{Owner, Simulation};
 use nalgebra::Vector3;
 
+use crate::builder::{Builder, axes_with_z, v};
 use crate::runs::assembled;
 use crate::shared::{number, reference};
 use crate::systems::law;
+use crate::systems::sliding::Block;
 use crate::systems::turning::Pendulum;
 
 /// Angular acceleration about z.
@@ -94,4 +98,53 @@ fn point_mass_on_a_pin_meets_the_closed_form() {
         assert!((radial - load).abs() < 1e-12);
         assert!((tangential + kappa * rate.signum() * load.abs()).abs() < 1e-12);
     }
+}
+
+/// A block of 2 kg whose centre is `height` above its guide (friction 0.2, overlap 0.1 m), sliding
+/// at 1 m/s.
+fn high_block(height: f64, gravity: f64, push: f64) -> Simulation {
+    let law = law(0.2, 0.2, 1e-4, 1e-6);
+    let mut load = Block::new(law).load;
+    load.initial_overlap = 0.1;
+    let mut b = Builder::new(v(0.0, -gravity, 0.0));
+    let block = b.body(2.0, [0.1; 3], v(0.0, height, 0.0));
+    let x = Vector3::x();
+    let joint = b.joint(
+        JointKind::Translational,
+        Some(block),
+        None,
+        v(0.0, 0.0, 0.0),
+        x,
+    );
+    b.friction(joint, law, FrictionJoint::Translational(load));
+    b.model.bodies[block].velocity = x;
+    b.model.bodies[block].given_velocity = [true; 6];
+    let markers = [Some(block), None].map(|on| b.marker(on, Vector3::zeros(), axes_with_z(x)));
+    b.force(
+        ForceKind::AlongZ,
+        markers[0],
+        markers[1],
+        Program::constant(push),
+    );
+    let mut simulation = Simulation::new(b.model, 1.0);
+    simulation.assemble().expect("it assembles");
+    simulation
+}
+
+#[test]
+fn bending_of_a_guide_feeds_back_into_its_friction() {
+    // The inertia force at the centre bends the guide by m |a| h, which adds μ m |a| h/Xs.
+    let acceleration = |mut simulation: Simulation| {
+        simulation.solve_instant().expect("the gain is below one");
+        simulation.snapshot().part_acceleration(0).linear.x
+    };
+    // Braking energises itself: |a| = μ g / (1 − μ h/Xs).
+    let braking = acceleration(high_block(0.3, 9.80665, 0.0));
+    assert!((braking + 0.2 * 9.80665 / 0.4).abs() < 1e-12, "{braking}");
+    // Driven by P in the guide, without weight: a = P / (m (1 + μ h/Xs)).
+    let driven = acceleration(high_block(0.3, 0.0, 5.0));
+    assert!((driven - 5.0 / (2.0 * 1.6)).abs() < 1e-12, "{driven}");
+    // A gain over one has no solution: an error, not numbers.
+    let error = high_block(0.6, 9.80665, 0.0).solve_instant();
+    println!("{}", error.expect_err("it jams"));
 }

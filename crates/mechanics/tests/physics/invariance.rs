@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::builder::v;
-use crate::runs::{energy, every, run, settings};
+use crate::runs::{assembled, energy, every, go_on, run, settings};
 use crate::systems::turning::ball_pendulum;
 use crate::systems::{four_bar, law, slider_crank};
 
@@ -169,6 +169,22 @@ fn millimetres_and_metres_move_alike() {
         println!("millimetres: difference {difference:.1e} m");
         // The error test is relative to the model's length: the same steps, other rounding.
         assert!(difference < ERROR, "{difference:e}");
+    }
+}
+
+#[test]
+fn stops_on_the_way_change_little() {
+    for model in models() {
+        let plain = centres(model.clone());
+        let settings = settings(Formulation::Si2, ERROR, 0.01);
+        let mut simulation = assembled(model);
+        for end in every(END, 10) {
+            go_on(&mut simulation, &[end], &settings, |_| {});
+        }
+        let difference = largest(&plain, |k| simulation.state().centre(k));
+        println!("ten restarts: difference {difference:.1e} m");
+        // Creep and state go on exactly; the steps after each start are others.
+        assert!(difference < 100.0 * ERROR, "{difference:e}");
     }
 }
 

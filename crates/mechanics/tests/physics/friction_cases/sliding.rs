@@ -2,10 +2,12 @@
 
 use friction::Inputs;
 use mechanics::Formulation;
+use mechanics::model::{FrictionJoint, JointKind, Level, MotionFreedom};
+use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
 
 use super::{HALVINGS, Row, Rule};
-use crate::builder::v;
+use crate::builder::{Builder, v};
 use crate::runs::{Sample, every, run, settings, turning_points};
 use crate::shared::{number, reference};
 use crate::systems::law;
@@ -94,7 +96,7 @@ fn spring_rows() -> Vec<Row> {
         (block.mass, block.gravity, block.slope) = (1.0, 9.81, 0.0);
         let mut b = block.builder();
         // A spring as long as wanted, so that its force is that of its stretch along x.
-        let axes = nalgebra::Matrix3::identity();
+        let axes = Matrix3::identity();
         let i = b.marker(Some(0), v(0.0, 0.0, 0.0), axes);
         let j = b.marker(None, v(-1.0, 0.0, 0.0), axes);
         b.spring(i, j, 100.0, 0.9);
@@ -136,8 +138,64 @@ fn spring_rows() -> Vec<Row> {
     rows
 }
 
+/// 9.10: a block on a belt, held by a spring: the period of stick and slip with this very law.
+fn belt_row() -> Row {
+    let periods = [
+        (1e-2, 1e-3, 0.703_075),
+        (1e-3, 1e-4, 0.677_820),
+        (1e-4, 1e-5, 0.671_488),
+    ];
+    let errors = periods.map(|(transition_velocity, max_deformation, exact)| {
+        let mut b = Builder::new(v(0.0, -9.81, 0.0));
+        let block = b.body(1.0, [0.02; 3], Vector3::zeros());
+        let belt = b.body(1.0, [0.02; 3], Vector3::zeros());
+        let slides = |b: &mut Builder, i, j| {
+            b.joint(
+                JointKind::Translational,
+                i,
+                j,
+                Vector3::zeros(),
+                Vector3::x(),
+            )
+        };
+        let contact = slides(&mut b, Some(block), Some(belt));
+        let guide = slides(&mut b, Some(belt), None);
+        b.drive(guide, MotionFreedom::Along(2), Level::Position, 0.1);
+        for body in [block, belt] {
+            b.model.bodies[body].velocity = v(0.1, 0.0, 0.0);
+            b.model.bodies[body].given_velocity = [true; 6];
+        }
+        let i = b.marker(Some(block), Vector3::zeros(), Matrix3::identity());
+        let j = b.marker(None, v(-10.0, 0.0, 0.0), Matrix3::identity());
+        b.spring(i, j, 100.0, 10.0);
+        let law = law(0.3, 0.2, transition_velocity, max_deformation);
+        let load = Block::new(law).load;
+        b.friction(contact, law, FrictionJoint::Translational(load));
+        let mut samples = Vec::new();
+        let settings = settings(Formulation::Si2, 1e-9, 0.01);
+        run(b.model, &every(4.0, 8000), &settings, |s| {
+            samples.push(Sample {
+                time: s.time(),
+                value: place(s),
+                rate: speed(s),
+            });
+        });
+        // Every second turn is a farthest point; the first cycle starts otherwise.
+        let turns = turning_points(&samples);
+        (turns[6].0 - turns[4].0 - exact).abs()
+    });
+    // Six digits are given.
+    Row::new(
+        "9.10 block on a belt, three Vs",
+        "period",
+        errors.to_vec(),
+        Rule::Below(2e-6),
+    )
+}
+
 pub(crate) fn rows() -> Vec<Row> {
     let mut rows = incline_rows();
     rows.extend(spring_rows());
+    rows.push(belt_row());
     rows
 }

@@ -1,5 +1,6 @@
 //! Pins and balls (B04, B05a, B08; 9.11, 9.12).
 
+use mechanics::rotation::Quaternion;
 use mechanics::{Formulation, Simulation, Snapshot};
 use nalgebra::Vector3;
 
@@ -250,10 +251,54 @@ fn ball_rows() -> Vec<Row> {
     rows
 }
 
+/// A ball that holds a tilt: where `m g L sin θ = μ_s m g Rb ψ(d/Dm)` with the creep `d` that took
+/// it there, at 100 and at 10⁴ s.
+fn hold_row() -> Row {
+    let (mu, radius, length, max_deformation) = (0.3, 0.02, 0.5, 1e-3);
+    let start = 8e-3_f64;
+    // Vs small enough to damp the swing on the creep.
+    let law = law(mu, mu, 1e-3, max_deformation);
+    // The axis of the tilt turned about the vertical, so that the creep is a vector.
+    let around = Quaternion::exp(&v(0.0, 0.0, 0.7));
+    let mut model = ball_pendulum(start, Vector3::zeros(), Some((law, radius)));
+    let body = &mut model.bodies[0];
+    body.origin = around.matrix() * body.origin;
+    body.orientation = around.times(&body.orientation);
+    let excess = |creep: f64| {
+        let s = creep / max_deformation;
+        let psi = (15.0 * s - 10.0 * s.powi(3) + 3.0 * s.powi(5)) / 8.0;
+        length * (start - creep / radius).sin() - mu * radius * psi
+    };
+    let (mut low, mut high) = (0.0, max_deformation);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if excess(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let tilt = start - low / radius;
+    let exact = length * around.matrix() * v(0.0, tilt.sin(), -tilt.cos());
+    let mut errors = Vec::new();
+    let settings = settings(Formulation::Si2, 1e-9, 100.0);
+    run(model, &[100.0, 1e4], &settings, |s| {
+        errors.push((s.state().centre(0) - exact).norm());
+        errors.push((Vector3::from(s.friction(0).creep).norm() - low).abs());
+    });
+    Row::new(
+        "ball held at a tilt, 100 and 10000 s",
+        "centre, creep",
+        errors,
+        Rule::Below(1e-9),
+    )
+}
+
 pub(crate) fn rows() -> Vec<Row> {
     let mut rows = pendulum_rows();
     rows.push(closed_form_row());
     rows.extend(rotor_rows());
     rows.extend(ball_rows());
+    rows.push(hold_row());
     rows
 }
