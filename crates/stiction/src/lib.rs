@@ -6,11 +6,43 @@
 //! ```text
 //! Project::load -> Session::new -> Session::run -> .res, .req, .msg and a RunReport
 //! ```
+//!
+//! | step | file |
+//! |---|---|
+//! | files to a checked dataset and commands | `loader.rs`, `project.rs` |
+//! | dataset to mechanics | `lower/` |
+//! | commands carried out | `session.rs`, settings and output times in `settings.rs` |
+//! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs` |
+//! | message file | `journal.rs` |
+//! | table of friction | `report.rs` |
+//! | a look without a run | `check.rs` |
+//!
+//! # Example
+//! ```no_run
+//! use stiction::{Project, RunOptions, Session, friction_table};
+//!
+//! struct Silent;
+//! impl stiction::Watch for Silent {
+//!     fn progress(&mut self, _: &stiction::Progress) -> bool {
+//!         true
+//!     }
+//! }
+//!
+//! let mut project = Project::load("pendulum.adm".as_ref())?;
+//! project.set("FRICTION/1, MU_STATIC=0.2")?;
+//! project.push_dynamic(2.0, Some(200), None);
+//! let session = Session::new(&project)?;
+//! std::fs::create_dir_all("results")?;
+//! let report = session.run("results".as_ref(), RunOptions::default(), &mut Silent)?;
+//! println!("{:?}\n{}", report.outcome, friction_table(&report.frictions));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod channels;
 mod check;
 mod defaults;
 mod journal;
+mod loader;
 mod lower;
 mod message;
 mod project;

@@ -1,6 +1,5 @@
 //! A model and the commands to run on it, from files.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use dataset::{
@@ -8,6 +7,7 @@ use dataset::{
     Source, Span,
 };
 
+use crate::loader;
 use crate::lower::{Measures, lower};
 use crate::message::{InputError, Message};
 use crate::settings;
@@ -21,15 +21,15 @@ use crate::settings;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Project {
-    dataset: Dataset,
+    pub(crate) dataset: Dataset,
     /// Place of the dataset's source in `sources`.
-    model: usize,
-    commands: Vec<SourcedCommand>,
-    sources: Vec<Source>,
-    files: Vec<PathBuf>,
-    prefix: String,
-    warnings: Vec<Message>,
-    is_dataset: bool,
+    pub(crate) model: usize,
+    pub(crate) commands: Vec<SourcedCommand>,
+    pub(crate) sources: Vec<Source>,
+    pub(crate) files: Vec<PathBuf>,
+    pub(crate) prefix: String,
+    pub(crate) warnings: Vec<Message>,
+    pub(crate) is_dataset: bool,
 }
 
 /// A command and the source that it comes from.
@@ -48,15 +48,7 @@ impl Project {
     /// # Errors
     /// Everything that is wrong with the files, each with its place.
     pub fn load(path: &Path) -> Result<Self, InputError> {
-        let mut loader = Loader::default();
-        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-        let is_dataset = extension != "acf";
-        if is_dataset {
-            loader.read_dataset(path, None);
-        } else {
-            loader.read_commands(path);
-        }
-        loader.finish(is_dataset)
+        loader::load(path)
     }
 
     /// The dataset, with the changes made so far.
@@ -291,238 +283,8 @@ fn has_error(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|d| d.severity == Severity::Error)
 }
 
-/// A command file that is being gone through.
-struct OpenFile {
-    path: PathBuf,
-    source: usize,
-    rest: std::vec::IntoIter<Command>,
-}
-
-/// Files while they are read.
-#[derive(Default)]
-struct Loader {
-    sources: Vec<Source>,
-    files: Vec<PathBuf>,
-    messages: Vec<Message>,
-    commands: Vec<SourcedCommand>,
-    dataset: Option<(Dataset, usize)>,
-    prefix: Option<String>,
-}
-
-/// The place of a command that names a file.
-struct Naming {
-    source: usize,
-    span: Span,
-}
-
-impl Loader {
-    /// Reads a source; an error is reported at the command that names it, if one does.
-    fn read(&mut self, path: &Path, naming: Option<&Naming>) -> Option<usize> {
-        let shown = path.display().to_string();
-        let text = std::fs::read(path).map_err(|error| error.to_string());
-        let source = match text {
-            Ok(bytes) => match Source::from_bytes(&shown, &bytes) {
-                Ok(source) => source,
-                Err(diagnostic) => {
-                    let empty = Source::from_text(&shown, String::new());
-                    self.messages.push(Message::new(*diagnostic, &empty));
-                    return None;
-                }
-            },
-            Err(error) => {
-                let message = format!("cannot read {shown}: {error}");
-                self.report(&shown, naming, message, None);
-                return None;
-            }
-        };
-        self.files.push(path.to_owned());
-        self.sources.push(source);
-        Some(self.sources.len() - 1)
-    }
-
-    fn report(
-        &mut self,
-        file: &str,
-        naming: Option<&Naming>,
-        message: String,
-        help: Option<String>,
-    ) {
-        let empty = Source::from_text(file, String::new());
-        let source = naming.map_or(&empty, |naming| &self.sources[naming.source]);
-        let diagnostic = Diagnostic {
-            code: Code::MissingElement,
-            severity: Severity::Error,
-            message,
-            source: source.name().to_owned(),
-            span: naming.map_or_else(Span::default, |naming| naming.span),
-            notes: Vec::new(),
-            help,
-        };
-        self.messages.push(Message::new(diagnostic, source));
-    }
-
-    fn read_dataset(&mut self, path: &Path, naming: Option<&Naming>) {
-        let base = path.file_stem().unwrap_or_default();
-        let base = || base.to_string_lossy().into_owned();
-        self.prefix = Some(self.prefix.take().unwrap_or_else(base));
-        let Some(place) = self.read(path, naming) else {
-            return;
-        };
-        let source = &self.sources[place];
-        let (dataset, diagnostics) = dataset::read_dataset(source);
-        self.messages
-            .extend(diagnostics.into_iter().map(|d| Message::new(d, source)));
-        self.dataset = Some((dataset, place));
-    }
-
-    fn open(&mut self, path: &Path, naming: Option<&Naming>) -> Option<OpenFile> {
-        let source = self.read(path, naming)?;
-        let (file, diagnostics) = dataset::read_commands(&self.sources[source]);
-        let located = diagnostics
-            .into_iter()
-            .map(|d| Message::new(d, &self.sources[source]));
-        self.messages.extend(located);
-        Some(OpenFile {
-            path: path.to_owned(),
-            source,
-            rest: file.commands.into_iter(),
-        })
-    }
-
-    /// Reads a command file and the ones it calls, in the order of the commands.
-    fn read_commands(&mut self, path: &Path) {
-        let mut called = HashSet::from([path.to_owned()]);
-        let mut open: Vec<OpenFile> = self.open(path, None).into_iter().collect();
-        let named = !open.is_empty();
-        while let Some(file) = open.last_mut() {
-            let Some(command) = file.rest.next() else {
-                open.pop();
-                continue;
-            };
-            let naming = Naming {
-                source: file.source,
-                span: command.span,
-            };
-            let folder = file.path.parent().map(Path::to_owned).unwrap_or_default();
-            match &command.kind {
-                CommandKind::Model {
-                    path,
-                    output_prefix,
-                } => {
-                    self.model(&folder, path, output_prefix.as_deref(), &naming);
-                }
-                CommandKind::CommandFile { path } => {
-                    let found = resolve(&folder, path, "acf");
-                    // A file that is called twice may call itself.
-                    if called.insert(found.clone()) {
-                        open.extend(self.open(&found, Some(&naming)));
-                    } else {
-                        let message = format!("{} is called twice", found.display());
-                        self.report("", Some(&naming), message, None);
-                    }
-                    continue;
-                }
-                CommandKind::Simulate(_) | CommandKind::Change(_) if self.prefix.is_none() => {
-                    let message = "this command comes before any model".to_owned();
-                    let help = Some("write FILE/MODEL=name before it".to_owned());
-                    self.report("", Some(&naming), message, help);
-                    continue;
-                }
-                _ => {}
-            }
-            self.commands.push(SourcedCommand {
-                command,
-                source: naming.source,
-            });
-        }
-        if named && self.dataset.is_none() && !self.messages.iter().any(Message::is_error) {
-            let message = "this command file names no model".to_owned();
-            let help = Some("write FILE/MODEL=name before the first SIMULATE".to_owned());
-            let naming = Naming {
-                source: 0,
-                span: Span::default(),
-            };
-            self.report("", Some(&naming), message, help);
-        }
-    }
-
-    fn model(&mut self, folder: &Path, path: &str, prefix: Option<&str>, naming: &Naming) {
-        if self.dataset.is_some() {
-            let message = "a second model in one run is not supported yet".to_owned();
-            let help = Some("use one command file for each model".to_owned());
-            self.report("", Some(naming), message, help);
-            return;
-        }
-        self.prefix = prefix
-            .map(|prefix| base_name(prefix).to_owned())
-            .filter(|p| !p.is_empty());
-        let found = resolve(folder, path, "adm");
-        self.read_dataset(&found, Some(naming));
-    }
-
-    fn finish(self, is_dataset: bool) -> Result<Project, InputError> {
-        let failed = self.messages.iter().any(Message::is_error);
-        let Some((dataset, model)) = self.dataset.filter(|_| !failed) else {
-            return Err(InputError {
-                messages: self.messages,
-            });
-        };
-        Ok(Project {
-            dataset,
-            model,
-            commands: self.commands,
-            sources: self.sources,
-            files: self.files,
-            prefix: self.prefix.unwrap_or_else(|| "model".to_owned()),
-            warnings: self.messages,
-            is_dataset,
-        })
-    }
-}
-
-/// The part of a path behind its last separator, of this or another system.
-fn base_name(path: &str) -> &str {
-    path.rsplit(['/', '\\']).next().unwrap_or(path)
-}
-
-/// The file that a command means: the path as written from the folder of the command file, else
-/// its base name there; with the extension added where it is missing.
-fn resolve(folder: &Path, written: &str, extension: &str) -> PathBuf {
-    let with_extension = |name: &str| {
-        let has = Path::new(name)
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case(extension));
-        if has {
-            folder.join(name)
-        } else {
-            folder.join(format!("{name}.{extension}"))
-        }
-    };
-    let written = written.trim();
-    let direct = with_extension(written);
-    if direct.is_file() {
-        direct
-    } else {
-        with_extension(base_name(written))
-    }
-}
-
 /// One second in the unit of time of a dataset.
 pub(crate) fn second(dataset: &Dataset) -> f64 {
     let time = dataset.units.as_ref().and_then(|units| units.time);
     time.map_or(1.0, |unit| 1.0 / unit.si())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_of_other_systems_fall_back_to_the_base_name() {
-        let found = resolve(Path::new("here"), r"C:\Users\someone\models\arm", "adm");
-        assert_eq!(found, Path::new("here").join("arm.adm"));
-        let found = resolve(Path::new("here"), "arm.v2", "adm");
-        assert_eq!(found, Path::new("here").join("arm.v2.adm"));
-        assert_eq!(base_name("plain"), "plain");
-    }
 }
