@@ -1,13 +1,15 @@
-//! Blocks on slopes and springs against exact stick and slip (B01, B02a, B03, B10, B11; 9.7).
+//! Blocks on slopes, guides, springs and belts against exact stick and slip (B01, B02, B03, B10, B11;
+//! 9.7, 9.10).
 
 use friction::Inputs;
 use mechanics::Formulation;
-use mechanics::model::{FrictionJoint, JointKind, Level, MotionFreedom};
+use mechanics::expression::Program;
+use mechanics::model::{ForceKind, FrictionJoint, JointKind, Level, MotionFreedom};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
 
 use super::{HALVINGS, Row, Rule};
-use crate::builder::{Builder, v};
+use crate::builder::{Builder, axes_with_z, v};
 use crate::runs::{Sample, every, run, settings, turning_points};
 use crate::shared::{number, reference};
 use crate::systems::law;
@@ -83,6 +85,51 @@ fn incline_rows() -> Vec<Row> {
             "friction at the end",
             vec![force],
             Rule::Below(bound),
+        ));
+    }
+    rows
+}
+
+/// B02b: pushed along a guide that bends, whose overlap stays or grows.
+fn overlap_rows() -> Vec<Row> {
+    let Some(file) = reference("validation/data/B02_overlap_delta.json") else {
+        return Vec::new();
+    };
+    let mut rows = Vec::new();
+    for (name, overlap_sign) in [("CONSTANT", 0.0), ("INCREASE", 1.0)] {
+        let at = |k: usize, key: &str| number(&file, &format!("/cases/{name}/{k}/{key}"));
+        let times: Vec<f64> = (0..5).map(|k| at(k, "t")).collect();
+        let mut errors = Vec::new();
+        let mut force = 0.0_f64;
+        for h in HALVINGS {
+            let mut block = Block::new(law(0.3, 0.25, 5e-3 * h, 5e-4 * h));
+            block.slope = 0.0;
+            block.bending = 3.0;
+            block.load.initial_overlap = 0.5;
+            block.load.overlap_sign = overlap_sign;
+            let mut b = block.builder();
+            let axes = axes_with_z(Vector3::x());
+            let [i, j] = [Some(0), None].map(|on| b.marker(on, Vector3::zeros(), axes));
+            b.force(ForceKind::AlongZ, i, j, Program::constant(12.0));
+            let settings = settings(Formulation::Si2, 1e-10, 0.02);
+            let (mut k, mut worst) = (0, 0.0_f64);
+            run(b.model, &times, &settings, |s| {
+                worst = worst.max((place(s) - at(k, "x")).abs());
+                // The friction where it stands: the overlap grows with the displacement.
+                let overlap = 0.5 + overlap_sign * place(s);
+                let exact = 0.25 * (2.0 * 9.80665 + 3.0 / overlap);
+                force = force.max((s.friction(0).force[0] + exact).abs());
+                k += 1;
+            });
+            errors.push(worst);
+        }
+        let case = format!("B02b overlap {name}");
+        rows.push(Row::new(&case, "x at five times", errors, Rule::Order(1.0)));
+        rows.push(Row::new(
+            case,
+            "friction there",
+            vec![force],
+            Rule::Below(1e-12),
         ));
     }
     rows
@@ -195,6 +242,7 @@ fn belt_row() -> Row {
 
 pub(crate) fn rows() -> Vec<Row> {
     let mut rows = incline_rows();
+    rows.extend(overlap_rows());
     rows.extend(spring_rows());
     rows.push(belt_row());
     rows
