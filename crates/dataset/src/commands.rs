@@ -189,6 +189,7 @@ const fn unsupported(full: &'static str) -> Rule {
 
 const ASKS: &str = "it asks a question of an interactive program";
 const REPORTS: &str = "what is reported is set by the dataset";
+const SOLVERS: &str = "stiction has one way of assembly and refuses static analyses";
 
 const COMMANDS: &[Rule] = &[
     read("FILE", "FILE", false, FILE_KEYWORDS, file),
@@ -238,10 +239,15 @@ const COMMANDS: &[Rule] = &[
     ),
     ignored("DEBUG", "it asks for diagnostics of another program"),
     ignored("ENVIRONMENT", "stiction reads no environment variables"),
+    ignored("EQUILIBRIUM", SOLVERS),
     ignored("HELP", ASKS),
+    ignored("IC", SOLVERS),
     ignored("INFO", ASKS),
+    ignored("KINEMATICS", SOLVERS),
+    ignored("LSOLVER", "stiction has one linear solver"),
     ignored("MENU", ASKS),
     ignored("OUTPUT", REPORTS),
+    ignored("PREFERENCES", "a simulation that fails ends the run"),
     ignored("REQUEST", REPORTS),
     ignored("RESULTS", REPORTS),
     ignored("SHOW", ASKS),

@@ -393,6 +393,7 @@ impl Parser<'_> {
             );
             return Err(self.problem(Code::ArgumentCount, span, message));
         }
+        self.check_width(function, &arguments, span)?;
         if deepest >= DEEPEST {
             let message = format!("an expression of more than {DEEPEST} operations in a row");
             return Err(self.too_deep(span, message));
@@ -403,6 +404,40 @@ impl Parser<'_> {
             span,
         };
         Ok((root, deepest + 1))
+    }
+
+    /// A transition or the onset of a damping takes place over a width, where numbers give it.
+    fn check_width(
+        &self,
+        function: Function,
+        arguments: &[Expr],
+        span: Span,
+    ) -> Result<(), Problem> {
+        let width = match (function, arguments) {
+            (
+                Function::Step | Function::Step5 | Function::Havsin,
+                [_, Expr::Number(from), _, Expr::Number(to), _],
+            ) => (to - from).abs(),
+            (Function::Impact | Function::Bistop, [.., Expr::Number(depth)]) => *depth,
+            _ => return Ok(()),
+        };
+        if width > 0.0 {
+            return Ok(());
+        }
+        let name = function.name();
+        let (message, help) = match function {
+            Function::Impact | Function::Bistop => (
+                format!("the last argument of {name} must be greater than 0"),
+                "it is the depth at which the damping is complete",
+            ),
+            _ => (
+                format!("{name} begins and ends at the same value"),
+                "give its second and fourth argument a distance, or write a jump with IF",
+            ),
+        };
+        let mut problem = self.problem(Code::OutOfRange, span, message);
+        problem.help = Some(help.to_string());
+        Err(problem)
     }
 
     fn check_argument(
