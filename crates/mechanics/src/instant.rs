@@ -210,7 +210,11 @@ impl System {
                 return self.model.forces[place].label.to_string();
             }
         }
-        for (constraint, evaluated) in self.constraints.iter().zip(&self.evaluated) {
+        // Motions and functions first: what they give spreads to joints through the state.
+        let constraints = self.constraints.iter().zip(&self.evaluated);
+        let (joints, others): (Vec<_>, Vec<_>) =
+            constraints.partition(|(constraint, _)| matches!(constraint.owner, Owner::Joint(_)));
+        for (constraint, evaluated) in others.into_iter().chain(joints) {
             let sum = evaluated.error + evaluated.rate + evaluated.acceleration;
             if !sum.is_finite() {
                 return self.owner_label(constraint.owner).to_string();

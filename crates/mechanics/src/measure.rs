@@ -135,9 +135,8 @@ impl Frame<f64> {
 }
 
 impl Frame<Dual> {
-    /// With the slopes by the motions of `body`.
-    fn new(m: &MarkerFrame, body: usize) -> Self {
-        let seeded = m.body == Some(body);
+    /// With the slopes by the motions of its body, where it is `seeded`.
+    fn new(m: &MarkerFrame, seeded: bool) -> Self {
         // Vector `v` plus its change: `by(k)` is the change by motion k.
         let vector = |v: &Vector3<f64>, by: &dyn Fn(usize) -> Vector3<f64>| {
             let mut out = [0, 1, 2].map(|axis| Dual::constant(v[axis]));
@@ -317,7 +316,30 @@ pub fn value(quantity: Quantity, markers: [&MarkerFrame; 4]) -> f64 {
 /// rotation, then velocity and angular velocity, along ground axes.
 #[must_use]
 pub fn slopes(quantity: Quantity, markers: [&MarkerFrame; 4], body: usize) -> [f64; 12] {
-    evaluate(quantity, &frames(markers, |m| Frame::<Dual>::new(m, body))).slopes
+    evaluate(
+        quantity,
+        &frames(markers, |m| Frame::<Dual>::new(m, m.body == Some(body))),
+    )
+    .slopes
+}
+
+/// Slopes of a quantity of displacement by the motion of those of its markers that `moves` marks,
+/// alone: position and rotation about the marker's own origin, along ground axes.
+#[must_use]
+pub fn slopes_by_marker(
+    quantity: Quantity,
+    markers: [&MarkerFrame; 4],
+    moves: [bool; 4],
+) -> [f64; 6] {
+    let frames = [0, 1, 2, 3].map(|k| {
+        let alone = MarkerFrame {
+            arm: Vector3::zeros(),
+            ..*markers[k]
+        };
+        Frame::<Dual>::new(&alone, moves[k])
+    });
+    let slopes = evaluate(quantity, &frames).slopes;
+    std::array::from_fn(|k| slopes[k])
 }
 
 /// Value, rate, and second rate with all accelerations zero, of a quantity of displacement.

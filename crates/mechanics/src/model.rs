@@ -175,6 +175,10 @@ pub struct Motion {
 pub struct GeneralConstraint {
     /// How it is called.
     pub label: Label,
+    /// Marker I, at which its reaction acts.
+    pub i: Option<usize>,
+    /// The other marker that it acts at, where there is just one.
+    pub j: Option<usize>,
     /// The function of displacement measures and time.
     pub function: Program,
 }

@@ -114,7 +114,7 @@ impl<'a> Snapshot<'a> {
     /// Force and torque of a joint, motion or general constraint on the part of its marker I, at
     /// the origin of I, ground axes; friction is not in it.
     ///
-    /// A general constraint has no markers: the result is then zero.
+    /// Zero for a general constraint without a marker I.
     #[must_use]
     pub fn reaction(&self, owner: Owner) -> Wrench {
         self.system.reaction_on_i(owner, self.multipliers)

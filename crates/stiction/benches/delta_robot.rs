@@ -42,7 +42,9 @@ fn main() {
             let project = stiction::Project::load(&model).expect("the model is read");
             let session = stiction::Session::new(&project).expect("the model is simulated");
             let options = stiction::RunOptions { error: Some(error) };
-            let report = session.run(&folder, options, &mut Unwatched).expect("results are written");
+            let report = session
+                .run(&folder, options, &mut Unwatched)
+                .expect("results are written");
             times.push(start.elapsed().as_secs_f64());
             statistics = Some(report.statistics);
         }

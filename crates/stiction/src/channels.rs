@@ -1,6 +1,6 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
-//! Order: parts and point masses, joints, primitives, motions, single-component forces,
+//! Order: parts and point masses, joints, primitives, motions, general constraints, forces,
 //! spring-dampers, variables, plant inputs and outputs, frictions, requests.
 
 use dataset::{Dataset, Header};
@@ -57,10 +57,14 @@ impl Channels {
             let place = dataset.joints.len() + place;
             push(&element.header, "JPRIM", "Primitive_Joint", joint(place));
         }
-        for (element, place) in dataset.motions.iter().zip(&lowered.motions) {
-            let Some(place) = *place else { continue };
-            let motion = ForceElement::Constraint(Owner::Motion(place));
+        for (element, owner) in dataset.motions.iter().zip(&lowered.motions) {
+            let Some(owner) = *owner else { continue };
+            let motion = ForceElement::Constraint(owner);
             push(&element.header, "MOTION", "Motion", motion);
+        }
+        for (place, element) in dataset.constraints.iter().enumerate() {
+            let constraint = ForceElement::Constraint(Owner::General(place));
+            push(&element.header, "GCON", "General_Constraint", constraint);
         }
         for (place, element) in dataset.single_forces.iter().enumerate() {
             let force = ForceElement::Applied(place);

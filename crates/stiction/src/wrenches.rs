@@ -14,6 +14,7 @@ pub(crate) struct Wrenches<'a> {
     snapshot: &'a Snapshot<'a>,
     joints: Vec<Wrench>,
     motions: Vec<Wrench>,
+    generals: Vec<Wrench>,
     forces: Vec<Wrench>,
     frictions: Vec<FrictionValues>,
 }
@@ -30,6 +31,7 @@ impl<'a> Wrenches<'a> {
         Self {
             joints: reaction(Owner::Joint, model.joints.len()),
             motions: reaction(Owner::Motion, model.motions.len()),
+            generals: reaction(Owner::General, model.constraints.len()),
             forces: (0..model.forces.len())
                 .map(|place| snapshot.applied(place))
                 .collect(),
@@ -50,8 +52,7 @@ impl<'a> Wrenches<'a> {
         match element {
             ForceElement::Constraint(Owner::Joint(joint)) => self.joints[joint],
             ForceElement::Constraint(Owner::Motion(motion)) => self.motions[motion],
-            // A general constraint acts between no two markers.
-            ForceElement::Constraint(Owner::General(_)) => Wrench::default(),
+            ForceElement::Constraint(Owner::General(place)) => self.generals[place],
             ForceElement::Applied(force) => self.forces[force],
             ForceElement::Friction(friction) => self.friction_on_i(friction),
         }
@@ -78,7 +79,9 @@ impl<'a> Wrenches<'a> {
         let model = self.snapshot.model();
         let alone = j + 1 == model.markers.len();
         let constraints = (0..model.joints.len()).map(Owner::Joint);
-        let constraints = constraints.chain((0..model.motions.len()).map(Owner::Motion));
+        let constraints = constraints
+            .chain((0..model.motions.len()).map(Owner::Motion))
+            .chain((0..model.constraints.len()).map(Owner::General));
         let elements = constraints
             .map(ForceElement::Constraint)
             .chain((0..model.forces.len()).map(ForceElement::Applied))
@@ -110,7 +113,12 @@ impl<'a> Wrenches<'a> {
             ForceElement::Constraint(Owner::Motion(place)) => {
                 (model.motions[place].i, model.motions[place].j, true)
             }
-            ForceElement::Constraint(Owner::General(_)) => (usize::MAX, usize::MAX, true),
+            ForceElement::Constraint(Owner::General(place)) => {
+                let constraint = &model.constraints[place];
+                // A marker that there is not is none of a function's.
+                let marker = |marker: Option<usize>| marker.unwrap_or(usize::MAX);
+                (marker(constraint.i), marker(constraint.j), true)
+            }
             ForceElement::Applied(place) => {
                 let force = &model.forces[place];
                 let on_both = matches!(force.kind, ForceKind::LineOfSight | ForceKind::AboutZ);

@@ -1,6 +1,6 @@
 //! The smallest change that meets linear equations.
 
-use numerics::linear::{Matrix, SparseLu};
+use numerics::linear::{Matrix, Singular, SparseLu};
 
 use super::rows::Row;
 
@@ -30,7 +30,7 @@ impl Least {
         rows: impl Iterator<Item = &'a Row>,
         weights: &[f64],
         regularisation: f64,
-    ) {
+    ) -> Result<(), Singular> {
         self.matrix.start();
         for (k, weight) in weights.iter().enumerate() {
             self.matrix.add(k, k, *weight);
@@ -46,10 +46,12 @@ impl Least {
             }
         }
         self.matrix.compress();
-        // The diagonal is positive, so the matrix has an inverse whatever the rows are.
-        let factored = self.factors.factor(&self.matrix);
-        debug_assert!(factored.is_ok(), "a regularised matrix has an inverse");
+        self.factors.factor(&self.matrix)
     }
+
+    /// # Errors
+    /// Where numbers are so large that nothing is left of others beside them: the diagonal is
+    /// positive, so the matrix has an inverse whatever the rows are.
 
     pub(super) fn solve(
         &mut self,
@@ -58,23 +60,25 @@ impl Least {
         wanted: &[f64],
         right: &[f64],
         regularisation: f64,
-    ) -> Vec<f64> {
-        self.factor(rows.iter(), weights, regularisation);
+    ) -> Result<Vec<f64>, Singular> {
+        self.factor(rows.iter(), weights, regularisation)?;
         let mut solution: Vec<f64> = wanted.iter().zip(weights).map(|(x, w)| x * w).collect();
         solution.extend_from_slice(right);
-        if self.factors.fill() > 0 {
-            self.factors.solve(&mut solution);
-        }
+        self.factors.solve(&mut solution);
         solution.truncate(self.n);
-        solution
+        Ok(solution)
     }
 
     /// Coefficients with which `rows` combine to `target` as nearly as possible.
-    pub(super) fn combination(&mut self, rows: &[&Row], target: &[f64]) -> Vec<f64> {
-        self.factor(rows.iter().copied(), &vec![1.0; self.n], REGULARISATION);
+    pub(super) fn combination(
+        &mut self,
+        rows: &[&Row],
+        target: &[f64],
+    ) -> Result<Vec<f64>, Singular> {
+        self.factor(rows.iter().copied(), &vec![1.0; self.n], REGULARISATION)?;
         let mut solution = target.to_vec();
         solution.resize(self.n + self.rows, 0.0);
         self.factors.solve(&mut solution);
-        solution.split_off(self.n).into_iter().map(|c| -c).collect()
+        Ok(solution.split_off(self.n).into_iter().map(|c| -c).collect())
     }
 }

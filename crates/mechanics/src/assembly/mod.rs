@@ -12,6 +12,7 @@ mod report;
 mod rows;
 
 use nalgebra::Vector3;
+use numerics::linear::Singular;
 
 pub use report::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
 
@@ -29,6 +30,8 @@ const ITERATIONS: usize = 60;
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_6;
 /// Weight of components that must stay, against one for the others.
 const EXACT_WEIGHT: f64 = 1e10;
+/// Corrections of the initial velocities, at most.
+const VELOCITY_PASSES: usize = 6;
 /// Weight of velocities that were given, against one for the others.
 const GIVEN_WEIGHT: f64 = 1e6;
 /// Where steps no longer lessen the error, that number grows up to this.
@@ -99,11 +102,13 @@ impl System {
         let exact = self.position_weights();
         let iterations = self.assemble_positions(state, &starts, &exact, length)?;
         let (active, order) = self.independent(length);
+        // Velocities that contradict one another show only with the redundant equations.
+        self.assemble_velocities(state, &starts, length)?;
         self.set_active(&active);
         // What inaccurate redundant equations left over is now removed from the others.
         self.assemble_positions(state, &starts, &exact, length)?;
         self.check_directions()?;
-        let not_unique = self.not_unique(&active, length);
+        let not_unique = self.not_unique(&active, length)?;
         self.assemble_velocities(state, &starts, length)?;
         self.start_history();
         let redundant = order
@@ -191,7 +196,8 @@ impl System {
                 rows = self.position_rows(state, starts, length);
             }
             let right: Vec<f64> = rows.iter().map(|row| -row.error).collect();
-            let mut change = least.solve(&rows, weights, &vec![0.0; n], &right, regularisation);
+            let change = least.solve(&rows, weights, &vec![0.0; n], &right, regularisation);
+            let mut change = change.map_err(|singular| self.out_of_scale(singular))?;
             for body in change.chunks_exact_mut(6) {
                 let turn = Vector3::from_column_slice(&body[3..6]).norm();
                 let limit = (LARGEST_TURN / turn.max(1e-300)).min(1.0);
@@ -234,23 +240,32 @@ impl System {
         let right: Vec<f64> = rows.iter().map(|row| row.rate).collect();
         let mut least = Least::new(n, rows.len());
         let weights = self.velocity_weights();
-        let mut velocities = least.solve(&rows, &weights, &wanted, &right, REGULARISATION);
-        // A second pass removes what the regularisation left of the first.
-        let missing: Vec<f64> = rows
-            .iter()
-            .map(|row| row.rate - along(row, &velocities))
-            .collect();
-        let correction = least.solve(&rows, &weights, &vec![0.0; n], &missing, REGULARISATION);
-        for (v, c) in velocities.iter_mut().zip(correction) {
-            *v += c;
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let size = largest(&wanted).max(largest(&right));
+        let solve = |least: &mut Least, wanted: &[f64], right: &[f64]| {
+            let solved = least.solve(&rows, &weights, wanted, right, REGULARISATION);
+            solved.map_err(|singular| self.out_of_scale(singular))
+        };
+        let mut velocities = solve(&mut least, &wanted, &right)?;
+        let mut missing = right;
+        // Each further pass removes what the regularisation left of the one before.
+        for _ in 0..VELOCITY_PASSES {
+            for (missing, row) in missing.iter_mut().zip(&rows) {
+                *missing = row.rate - along(row, &velocities);
+            }
+            if largest(&missing) <= 1e-15 * size {
+                break;
+            }
+            let correction = solve(&mut least, &vec![0.0; n], &missing)?;
+            for (v, c) in velocities.iter_mut().zip(correction) {
+                *v += c;
+            }
         }
-        let size = velocities.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let size = rows.iter().fold(size, |m, row| m.max(row.rate.abs()));
         let unmet = unmet(&rows, |row| row.rate - along(row, &velocities));
         let largest = rows.iter().fold(0.0_f64, |m, row| {
             m.max((row.rate - along(row, &velocities)).abs())
         });
-        if !(largest <= CONSISTENT * size.max(1e-12)) {
+        if !(largest <= CONSISTENT * size) {
             return Err(AssemblyError::Velocities { unmet });
         }
         for (k, (u, v)) in state
@@ -263,6 +278,13 @@ impl System {
         }
         self.evaluate(state, false);
         Ok(())
+    }
+
+    /// The element whose numbers leave nothing of others beside them.
+    pub(super) fn out_of_scale(&self, singular: Singular) -> AssemblyError {
+        AssemblyError::OutOfScale {
+            place: self.describe(singular.column),
+        }
     }
 
     /// The equations of a joint also hold with opposite axes; that is not what the joint means.

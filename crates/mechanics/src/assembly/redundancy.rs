@@ -3,6 +3,7 @@
 use numerics::rank::independent_rows;
 
 use super::least_change::Least;
+use super::report::AssemblyError;
 use super::rows::{Row, expand};
 use crate::constraint::Owner;
 use crate::system::System;
@@ -45,7 +46,11 @@ impl System {
     }
 
     /// Frictions of joints whose multipliers take part in a dependency.
-    pub(super) fn not_unique(&mut self, active: &[bool], length: f64) -> Vec<usize> {
+    pub(super) fn not_unique(
+        &mut self,
+        active: &[bool],
+        length: f64,
+    ) -> Result<Vec<usize>, AssemblyError> {
         let n = self.velocity_count();
         let all: Vec<bool> = vec![true; active.len()];
         self.set_active(&all);
@@ -53,7 +58,7 @@ impl System {
         self.set_active(active);
         let dropped: Vec<usize> = (0..active.len()).filter(|&place| !active[place]).collect();
         if dropped.is_empty() || self.model.frictions.is_empty() {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let kept: Vec<usize> = (0..active.len()).filter(|&place| active[place]).collect();
         let kept_rows: Vec<&Row> = kept.iter().map(|&place| &rows[place]).collect();
@@ -67,7 +72,9 @@ impl System {
         for &place in &dropped {
             touch(place);
             // The dropped row as a combination of kept ones: rest + Gᵀ c = row, G rest = 0.
-            let coefficients = least.combination(&kept_rows, &expand(&rows[place], n));
+            let coefficients = least
+                .combination(&kept_rows, &expand(&rows[place], n))
+                .map_err(|singular| self.out_of_scale(singular))?;
             for (&place, c) in kept.iter().zip(coefficients) {
                 if c.abs() > 1e-6 {
                     touch(place);
@@ -75,9 +82,9 @@ impl System {
             }
         }
         let frictions = self.model.frictions.iter().enumerate();
-        frictions
+        Ok(frictions
             .filter(|(_, friction)| touched[friction.joint])
             .map(|(place, _)| place)
-            .collect()
+            .collect())
     }
 }

@@ -95,6 +95,11 @@ pub enum AssemblyError {
         /// Elements whose equations are not met, with the error left, the largest first.
         unmet: Vec<Unmet>,
     },
+    /// Numbers differ so much in size that nothing is left of some beside others.
+    OutOfScale {
+        /// The body and component where it shows.
+        place: String,
+    },
     /// A function of time or displacement gives no number.
     NotANumber {
         /// The element.
@@ -130,6 +135,10 @@ impl std::fmt::Display for AssemblyError {
                     list(unmet)
                 )
             }
+            Self::OutOfScale { place } => write!(
+                f,
+                "the numbers of the model differ too much in size; it shows at {place}"
+            ),
             Self::NotANumber { element } => {
                 write!(
                     f,

@@ -5,27 +5,67 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use super::System;
 use crate::constraint::{Form, Owner};
 use crate::equation::Equation;
+use crate::expression::Input;
 use crate::joint_friction::{self, Element, Share};
+use crate::measure;
 use crate::rotation::skew;
 use crate::snapshot::Wrench;
 use crate::state::MarkerFrame;
 
 impl System {
-    /// Reaction of a joint or motion on the part of its marker I, at the origin of I, ground axes.
+    /// Reaction of a joint, motion or general constraint on the part of its marker I, at the origin
+    /// of I, ground axes; zero for a general constraint without a marker I.
     pub(crate) fn reaction_on_i(&self, owner: Owner, multipliers: &[f64]) -> Wrench {
         let mut wrench = Wrench::default();
         let constraints = self.constraints.iter().zip(&self.evaluated);
         for (constraint, evaluated) in constraints.filter(|(c, _)| c.owner == owner) {
-            let (Form::Pair { i, .. }, Some(row)) = (constraint.form, constraint.row) else {
-                continue;
-            };
-            let local = multipliers[row] * evaluated.local;
-            let force = Vector3::new(local[0], local[1], local[2]);
-            let torque = Vector3::new(local[3], local[4], local[5]);
-            wrench.force += force;
-            wrench.torque += torque - self.marker(i).arm.cross(&force);
+            let Some(row) = constraint.row else { continue };
+            match (constraint.form, owner) {
+                (Form::Pair { i, .. }, _) => {
+                    let local = multipliers[row] * evaluated.local;
+                    let force = Vector3::new(local[0], local[1], local[2]);
+                    let torque = Vector3::new(local[3], local[4], local[5]);
+                    wrench.force += force;
+                    wrench.torque += torque - self.marker(i).arm.cross(&force);
+                }
+                (Form::Function, Owner::General(place)) => {
+                    let [force, torque] = self.gradient_at_i(place);
+                    wrench.force += multipliers[row] * force;
+                    wrench.torque += multipliers[row] * torque;
+                }
+                (Form::Function, _) => {}
+            }
         }
         wrench
+    }
+
+    /// Gradient of a general constraint by the motion of its marker I alone: what its multiplier
+    /// applies there.
+    fn gradient_at_i(&self, place: usize) -> [Vector3<f64>; 2] {
+        let constraint = &self.model.constraints[place];
+        let function = &constraint.function;
+        let mut registers = vec![0.0; function.len()];
+        let mut adjoints = vec![0.0; function.len()];
+        function.evaluate(&mut registers, |input| {
+            super::evaluation::read(input, self.time, &self.measures)
+        });
+        let mut gradient = [Vector3::zeros(); 2];
+        function.gradient(&registers, &mut adjoints, |input, slope| {
+            let Input::Measure(measure) = input else {
+                return;
+            };
+            let moves = self.model.measures[measure]
+                .markers()
+                .map(|marker| Some(marker) == constraint.i);
+            let [i, j, k, l] = self.measure_frames(measure);
+            let quantity = self.model.measures[measure].quantity;
+            let slopes = measure::slopes_by_marker(quantity, [&i, &j, &k, &l], moves);
+            for axis in 0..3 {
+                gradient[0][axis] += slope * slopes[axis];
+                gradient[1][axis] += slope * slopes[3 + axis];
+            }
+        });
+        gradient
     }
 
     /// Reaction of a friction's joint on I at marker I, along the axes of J.

@@ -21,6 +21,11 @@ impl Measures {
         &self.list
     }
 
+    /// A measure by its place.
+    pub(crate) fn get(&self, place: usize) -> Measure {
+        self.list[place]
+    }
+
     /// Place of the measure that a call stands for; `None` where the call is no kinematic function
     /// that is simulated. `marker` gives the place of a marker, of ground for `None`.
     pub(crate) fn of_call(

@@ -19,6 +19,7 @@ mod results;
 use std::collections::HashSet;
 
 use ::dataset::{Code, Dataset, Diagnostic, Header, Severity, Span};
+use mechanics::Owner;
 use mechanics::model::{Label, Model};
 use nalgebra::Vector3;
 
@@ -33,9 +34,8 @@ pub(crate) struct Lowered {
     pub(crate) model: Model,
     /// What outputs need beside it.
     pub(crate) outputs: Outputs,
-    /// Place of each motion of the dataset among the model's motions; `None` for those that are
-    /// general constraints.
-    pub(crate) motions: Vec<Option<usize>>,
+    /// What each motion of the dataset has become: a motion, or a general constraint.
+    pub(crate) motions: Vec<Option<Owner>>,
     /// Warnings.
     pub(crate) warnings: Vec<Diagnostic>,
 }
@@ -102,7 +102,7 @@ struct Lowering<'a> {
     /// Place of the implicit marker at the origin of ground.
     ground: usize,
     measures: &'a mut Measures,
-    motions: Vec<Option<usize>>,
+    motions: Vec<Option<Owner>>,
     /// Results that output functions read, by number.
     results: Vec<results::ResultSource>,
     diagnostics: Vec<Diagnostic>,

@@ -1,6 +1,7 @@
 //! MOTION and GCON to motions and general constraints.
 
 use dataset::{Code, Motion, MotionDirection, MotionLevel, MotionTarget};
+use mechanics::Owner;
 use mechanics::expression::{Binary, Input, Operation, Program};
 use mechanics::model::{self, GeneralConstraint, JointKind, JointStart, Level, MotionFreedom};
 
@@ -22,10 +23,15 @@ impl Lowering<'_> {
                 &constraint.function,
             );
             if let Some(function) = function {
+                let i = constraint.i.map(|i| self.marker_place(i));
+                let j = self.other_marker(&function, i);
                 let label = label("GCON", &constraint.header);
-                model
-                    .constraints
-                    .push(GeneralConstraint { label, function });
+                model.constraints.push(GeneralConstraint {
+                    label,
+                    i,
+                    j,
+                    function,
+                });
             }
         }
     }
@@ -39,8 +45,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Adds a motion; returns its place among the model's motions.
-    fn motion(&mut self, model: &mut model::Model, motion: &Motion) -> Option<usize> {
+    /// Adds a motion; returns what it has become.
+    fn motion(&mut self, model: &mut model::Model, motion: &Motion) -> Option<Owner> {
         let (i, j, freedom) = match motion.target {
             MotionTarget::JointRotation(joint) => {
                 let joint = self.dataset.joints.by_id(joint)?;
@@ -72,7 +78,7 @@ impl Lowering<'_> {
         i: u32,
         j: u32,
         freedom: MotionFreedom,
-    ) -> Option<usize> {
+    ) -> Option<Owner> {
         let function = self.function(motion, "MOTION", Reads::Time, &motion.function)?;
         model.motions.push(model::Motion {
             label: label("MOTION", &motion.header),
@@ -86,7 +92,7 @@ impl Lowering<'_> {
                 velocity: motion.ic_velocity,
             },
         });
-        Some(model.motions.len() - 1)
+        Some(Owner::Motion(model.motions.len() - 1))
     }
 
     /// A motion of the body-fixed 1-2-3 angle `n`.
@@ -97,9 +103,10 @@ impl Lowering<'_> {
         n: usize,
         i: u32,
         j: u32,
-    ) -> Option<usize> {
+    ) -> Option<Owner> {
         let name = format!("MOTION/{}", motion.header.id);
         if n == 2 && self.turns_about_z(model, i, j) {
+            // The third angle is then the rotation about z itself.
             return self.along_or_about(model, motion, i, j, MotionFreedom::AboutZ);
         }
         if motion.level != MotionLevel::Displacement {
@@ -127,17 +134,34 @@ impl Lowering<'_> {
         compiler
             .program
             .push(Operation::Binary(Binary::Subtract, angle, wanted));
-        self.warn(
-            Code::Ignored,
-            motion.header.span,
-            format!("{name}: the torque of a motion of a body-fixed angle is not in the results"),
-        );
         let function: Program = compiler.program;
         let label = label("MOTION", &motion.header);
-        model
-            .constraints
-            .push(GeneralConstraint { label, function });
-        None
+        model.constraints.push(GeneralConstraint {
+            label,
+            i: Some(i),
+            j: Some(j),
+            function,
+        });
+        Some(Owner::General(model.constraints.len() - 1))
+    }
+
+    /// The marker that a function reads beside `i` and the ground's, where it is just one.
+    fn other_marker(&self, function: &Program, i: Option<usize>) -> Option<usize> {
+        let mut others: Vec<usize> = function
+            .inputs()
+            .filter_map(|input| match input {
+                Input::Measure(measure) => Some(self.measures.get(measure)),
+                _ => None,
+            })
+            .flat_map(|measure| [measure.i, measure.j])
+            .filter(|&marker| Some(marker) != i && marker != self.ground)
+            .collect();
+        others.sort_unstable();
+        others.dedup();
+        match others[..] {
+            [j] => Some(j),
+            _ => None,
+        }
     }
 
     /// Whether a joint between the same parts keeps the z axes of two markers parallel, so that

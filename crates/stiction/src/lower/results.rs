@@ -108,7 +108,7 @@ impl ResultSource {
             }
             F::Motion => {
                 let motion = dataset.motions.position(number(0)?)?;
-                ForceElement::Constraint(Owner::Motion((*lowering.motions.get(motion)?)?))
+                ForceElement::Constraint((*lowering.motions.get(motion)?)?)
             }
             F::Sforce => ForceElement::Applied(dataset.single_forces.position(number(0)?)?),
             F::Spdp => {
