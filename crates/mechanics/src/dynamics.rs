@@ -44,6 +44,9 @@ pub enum Formulation {
 
 /// Newton stops when what is left is this part of the error tolerance.
 const NEWTON_TOLERANCE: f64 = 0.05;
+/// The same for I3, whose velocities and reactions are what is left divided by the step and its
+/// square.
+const INDEX3_NEWTON_TOLERANCE: f64 = 0.002;
 /// A kept Newton matrix serves while γ stays within this part of its own.
 const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
@@ -318,6 +321,10 @@ impl Dynamics {
             MatrixUse::RenewedAlways => self.newton_iterations.max(FULL_ITERATIONS),
             _ => self.newton_iterations,
         };
+        let tolerance = match self.present {
+            Formulation::Si2 => NEWTON_TOLERANCE,
+            Formulation::I3 => INDEX3_NEWTON_TOLERANCE,
+        };
         for iteration in 0..iterations {
             let renew = match usage {
                 MatrixUse::Kept => false,
@@ -374,7 +381,7 @@ impl Dynamics {
             // rate of an earlier step says nothing about a matrix that has gone stale since.
             if iteration > 0 {
                 self.rate = norm / last;
-                if self.rate >= 1.0 && norm > NEWTON_TOLERANCE {
+                if self.rate >= 1.0 && norm > tolerance {
                     // With a matrix of its own in each iteration the kink may be crossed once or
                     // twice before the iteration settles on one side.
                     growths += 1;
@@ -382,7 +389,7 @@ impl Dynamics {
                         break;
                     }
                 }
-                if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= NEWTON_TOLERANCE {
+                if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= tolerance {
                     return Ok(());
                 }
             }
