@@ -80,24 +80,25 @@ fn report_json(report: &CheckReport) -> Value {
         "frictions_not_unique": report.not_unique,
         "moved": moved.collect::<Vec<_>>(),
         "friction_defaults": defaults.collect::<Vec<_>>(),
-        "assembly_error": report.assembly_error.as_ref().map(ToString::to_string),
+        "assembly_error": report.assembly_error.as_ref().map(message_json),
         "messages": messages_json(&report.messages),
     })
 }
 
 fn messages_json(messages: &[Message]) -> Vec<Value> {
-    let message = |message: &Message| {
-        let diagnostic = &message.diagnostic;
-        json!({
-            "severity": diagnostic.severity.as_str(),
-            "code": diagnostic.code.as_str(),
-            "message": diagnostic.message,
-            "file": diagnostic.source,
-            "line": message.line,
-            "column": message.column,
-            "notes": diagnostic.notes,
-            "help": diagnostic.help,
-        })
-    };
-    messages.iter().map(message).collect()
+    messages.iter().map(message_json).collect()
+}
+
+fn message_json(message: &Message) -> Value {
+    let diagnostic = &message.diagnostic;
+    json!({
+        "severity": diagnostic.severity.as_str(),
+        "code": diagnostic.code.as_str(),
+        "message": diagnostic.message,
+        "file": diagnostic.source,
+        "line": message.line,
+        "column": message.column,
+        "notes": diagnostic.notes,
+        "help": diagnostic.help,
+    })
 }

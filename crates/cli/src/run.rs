@@ -111,7 +111,7 @@ fn folder(arguments: &RunArguments, project: &Project) -> Result<PathBuf, Failur
 fn tell(folder: &Path, report: &RunReport) {
     let (outcome, message) = record::words(&report.outcome);
     if let Some(message) = message {
-        complain(&format!("error: {message}\n"));
+        complain(&format!("{message}\n"));
     }
     let steps = &report.statistics.steps;
     let mut text = format!(

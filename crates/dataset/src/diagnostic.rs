@@ -65,6 +65,12 @@ codes! {
     AmbiguousName = "ambiguous-name",
     /// An argument of the language that is not simulated.
     UnsupportedArgument = "unsupported-argument",
+    /// A function of the language that is not simulated, or not in this place.
+    UnsupportedFunction = "unsupported-function",
+    /// The initial conditions cannot be met.
+    Assembly = "assembly",
+    /// The integration cannot go on.
+    Integration = "integration",
     /// An argument or statement without effect here, which cannot change the motion.
     Ignored = "ignored",
     /// An argument is given twice.

@@ -3,7 +3,7 @@
 use numerics::linear::{Matrix, Singular, SparseLu};
 
 use crate::constraint::Owner;
-use crate::model::Level;
+use crate::model::{Label, Level};
 use crate::state::State;
 use crate::system::{Rows, System};
 
@@ -22,8 +22,8 @@ pub enum Failure {
     },
     /// An element's function gave something that is not a number.
     NotANumber {
-        /// The element.
-        element: String,
+        /// The element; none where it shows in the reactions first.
+        element: Option<Label>,
     },
     /// A body would turn too far in one step.
     TurnsTooFar {
@@ -204,10 +204,10 @@ impl Instant {
 
 impl System {
     /// Names the element whose function is not a number at the instant evaluated last.
-    pub(crate) fn find_not_a_number(&mut self) -> String {
+    pub(crate) fn find_not_a_number(&mut self) -> Option<Label> {
         for place in 0..self.model.forces.len() {
             if !self.force_value(place).is_finite() {
-                return self.model.forces[place].label.to_string();
+                return Some(self.model.forces[place].label.clone());
             }
         }
         // Motions and functions first: what they give spreads to joints through the state.
@@ -217,24 +217,45 @@ impl System {
         for (constraint, evaluated) in others.into_iter().chain(joints) {
             let sum = evaluated.error + evaluated.rate + evaluated.acceleration;
             if !sum.is_finite() {
-                return self.owner_label(constraint.owner).to_string();
+                return Some(self.owner_label(constraint.owner).clone());
             }
         }
         for (body, frame) in self.model.bodies.iter().zip(&self.bodies) {
             if !(frame.centre.sum() + frame.velocity.sum() + frame.omega.sum()).is_finite() {
-                return body.label.to_string();
+                return Some(body.label.clone());
             }
         }
-        "the reactions".to_owned()
+        None
     }
 
     /// Label of the element that a constraint equation belongs to.
     #[must_use]
-    pub fn owner_label(&self, owner: Owner) -> &crate::model::Label {
+    pub fn owner_label(&self, owner: Owner) -> &Label {
         match owner {
             Owner::Joint(place) => &self.model.joints[place].label,
             Owner::Motion(place) => &self.model.motions[place].label,
             Owner::General(place) => &self.model.constraints[place].label,
+        }
+    }
+
+    /// The element that a row or unknown of the Newton matrix belongs to.
+    pub(crate) fn element_at(&self, place: usize) -> Option<&Label> {
+        let n = self.velocity_count();
+        if place < n {
+            return Some(&self.model.bodies[place / 6].label);
+        }
+        let constraint = *self.rows.get(place - n)?;
+        Some(self.owner_label(self.constraints[constraint].owner))
+    }
+
+    /// The element that a failure is about, where there is one.
+    #[must_use]
+    pub fn element_of<'a>(&'a self, failure: &'a Failure) -> Option<&'a Label> {
+        match failure {
+            Failure::Singular(singular) => self.element_at(singular.row),
+            Failure::NotConverged { unknown } => self.element_at(*unknown),
+            Failure::NotANumber { element } => element.as_ref(),
+            Failure::TurnsTooFar { body } => Some(&self.model.bodies[*body].label),
         }
     }
 
@@ -282,9 +303,7 @@ impl System {
                 "Newton's iteration did not converge; {} changed most",
                 self.describe(*unknown)
             ),
-            Failure::NotANumber { element } => {
-                format!("{element} gives a value that is not a finite number")
-            }
+            Failure::NotANumber { element } => not_a_number(element.as_ref()),
             Failure::TurnsTooFar { body } => {
                 format!(
                     "{} would turn too far in one step",
@@ -292,5 +311,13 @@ impl System {
                 )
             }
         }
+    }
+}
+
+/// Says that an element's value is not a number.
+pub(crate) fn not_a_number(element: Option<&Label>) -> String {
+    match element {
+        Some(element) => format!("{element} gives a value that is not a finite number"),
+        None => "the reactions are not finite numbers".to_owned(),
     }
 }

@@ -11,7 +11,7 @@ use crate::measure::Measure;
 use crate::rotation::Quaternion;
 
 /// How an element is called in messages: its statement, id and name.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Label {
     /// Statement name, such as `JOINT`.
     pub statement: &'static str,

@@ -6,7 +6,7 @@ use numerics::bdf::{self, Bdf};
 use crate::assembly::{Assembly, AssemblyError};
 use crate::dynamics::{Dynamics, Formulation, Scales, Work};
 use crate::instant::{Failure, Instant};
-use crate::model::Model;
+use crate::model::{Label, Model};
 use crate::rotation::Quaternion;
 use crate::snapshot::Snapshot;
 use crate::state::{POSITIONS, State, VELOCITIES};
@@ -82,6 +82,8 @@ pub struct RunError {
     pub time: f64,
     /// What happened, in mechanical words.
     pub message: String,
+    /// The element that it is about, where there is one.
+    pub element: Option<Label>,
 }
 
 impl std::fmt::Display for RunError {
@@ -233,6 +235,7 @@ impl Simulation {
         RunError {
             time: self.state.time,
             message: self.system.explain(failure),
+            element: self.system.element_of(failure).cloned(),
         }
     }
 
@@ -436,6 +439,7 @@ impl Simulation {
                     "the step could not be solved with the shortest step allowed: {}",
                     self.system.explain(cause)
                 ),
+                element: self.system.element_of(cause).cloned(),
             },
             bdf::Error::Inaccurate { time, size } => RunError {
                 time: *time,
@@ -444,6 +448,7 @@ impl Simulation {
                      try was {size:.3e}); likely causes: a discontinuous function, or forces that \
                      change faster than HMIN resolves"
                 ),
+                element: None,
             },
         }
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::assembly::Unmet;
 use crate::constraint::Owner;
 use crate::expression::{Input, Program};
 use crate::joint_friction::Values;
@@ -118,6 +119,12 @@ impl<'a> Snapshot<'a> {
     #[must_use]
     pub fn reaction(&self, owner: Owner) -> Wrench {
         self.system.reaction_on_i(owner, self.multipliers)
+    }
+
+    /// Constraint equations that were dropped as redundant and do not hold here: by more than a part
+    /// `tolerance` of the `length`, or as many radians.
+    pub fn broken(&self, tolerance: f64, length: f64) -> impl Iterator<Item = Unmet> + '_ {
+        self.system.broken(tolerance, length)
     }
 
     /// Force and torque of a single-component force on the part of its marker I, at the origin of

@@ -1,9 +1,10 @@
 //! A project looked at without running it.
 
 use dataset::{Code, CommandKind, Diagnostic, Severity, SimulationKind};
-use mechanics::{AssemblyError, Moved, Redundancy};
+use mechanics::{Moved, Redundancy};
 
 use crate::defaults::{FrictionDefaults, defaults_in_use};
+use crate::failure;
 use crate::message::{InputError, Message};
 use crate::project::Project;
 
@@ -27,7 +28,7 @@ pub struct CheckReport {
     /// Warnings, and errors of commands that are not simulated.
     pub messages: Vec<Message>,
     /// Why the model cannot be assembled.
-    pub assembly_error: Option<AssemblyError>,
+    pub assembly_error: Option<Message>,
 }
 
 /// Lowers and assembles a project.
@@ -82,7 +83,11 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
                 .map(|place| frictions[place].clone())
                 .collect();
         }
-        Err(error) => report.assembly_error = Some(error),
+        Err(error) => {
+            let source = project.model_source();
+            let message = failure::of_assembly(dataset, source, &error);
+            report.assembly_error = Some(message);
+        }
     }
     Ok(report)
 }
@@ -147,7 +152,7 @@ impl std::fmt::Display for CheckReport {
             writeln!(f, "{defaults}")?;
         }
         match &self.assembly_error {
-            Some(error) => writeln!(f, "error: {error}"),
+            Some(error) => write!(f, "{error}"),
             None => Ok(()),
         }
     }

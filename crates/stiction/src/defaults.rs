@@ -1,8 +1,9 @@
 //! Defaults of FRICTION arguments that a dataset leaves out.
 
-use dataset::{Dataset, DefaultInUse};
+use dataset::{Dataset, DefaultInUse, Dimension};
+use results::UnitNames;
 
-use crate::channels::name;
+use crate::channels::{name, unit_names};
 
 /// The defaults in use of one FRICTION.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,24 @@ pub struct FrictionDefaults {
     pub name: String,
     /// Arguments and their values, plain numbers in the units of the model.
     pub defaults: Vec<DefaultInUse>,
+    /// Units of the model.
+    pub units: UnitNames,
+}
+
+/// A number with its unit, `1e40` rather than its forty digits.
+fn with_unit(default: &DefaultInUse, units: &UnitNames) -> String {
+    let number = format!("{:?}", default.value);
+    let number = number.strip_suffix(".0").unwrap_or(&number);
+    let unit = match default.quantity.dimension() {
+        Dimension::Number => return number.to_owned(),
+        Dimension::Length => units.length.clone(),
+        Dimension::Velocity => units.velocity(),
+        Dimension::Force => units.force.clone(),
+        Dimension::Torque => units.torque(),
+        Dimension::Stiffness => format!("{}/{}", units.force, units.length),
+        Dimension::Damping => format!("{}-{}/{}", units.force, units.time, units.length),
+    };
+    format!("{number} {unit}")
 }
 
 impl std::fmt::Display for FrictionDefaults {
@@ -24,7 +43,7 @@ impl std::fmt::Display for FrictionDefaults {
                 f,
                 "{separator}{}={}",
                 default.quantity.keyword(),
-                default.value
+                with_unit(default, &self.units)
             )?;
         }
         Ok(())
@@ -34,12 +53,14 @@ impl std::fmt::Display for FrictionDefaults {
 /// The defaults in use, by FRICTION; frictions without any are left out.
 #[must_use]
 pub fn defaults_in_use(dataset: &Dataset) -> Vec<FrictionDefaults> {
+    let units = unit_names(dataset);
     let with_joint = dataset.frictions.iter().filter_map(|friction| {
         let joint = dataset.joints.by_id(friction.joint)?;
         Some(FrictionDefaults {
             id: friction.header.id,
             name: name(&friction.header, "FRICTION"),
             defaults: friction.defaults_in_use(joint.kind),
+            units: units.clone(),
         })
     });
     with_joint

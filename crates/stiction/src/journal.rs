@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 
 use dataset::{Dataset, Severity};
-use mechanics::model::Model;
+use mechanics::model::{Label, Model};
 use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
 use results::{MessageWriter, StepRow};
 
@@ -21,7 +21,13 @@ pub(crate) struct Journal<W: Write> {
     processor: Option<f64>,
     /// Frictions whose overlap has been warned about.
     exhausted: HashSet<usize>,
+    /// Elements whose redundant equations have been warned about.
+    broken: HashSet<Label>,
 }
+
+/// Redundant equations that are off by this part of the model's length, or as many radians, no
+/// longer hold.
+const BROKEN: f64 = 1e-3;
 
 impl<W: Write> Journal<W> {
     pub(crate) fn new(writer: MessageWriter<W>, path: String) -> Self {
@@ -31,6 +37,7 @@ impl<W: Write> Journal<W> {
             warnings: 0,
             processor: processor_time(),
             exhausted: HashSet::new(),
+            broken: HashSet::new(),
         }
     }
 
@@ -90,9 +97,6 @@ impl<W: Write> Journal<W> {
             dataset.variables.len(),
             dataset.requests.len(),
         ))?;
-        if !dataset.constraints.is_empty() {
-            self.note("the reactions of general constraints are not in the results yet")?;
-        }
         for line in defaults_in_use(dataset) {
             self.note(&line.to_string())?;
         }
@@ -204,6 +208,26 @@ impl<W: Write> Journal<W> {
                     "{}: the overlap of its joint is used up at time {}; a thousandth of \
                      INITIAL_OVERLAP is kept",
                     friction.label,
+                    snapshot.time()
+                ))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Warns once for each element whose redundant equations have ceased to hold: what was left
+    /// out then restrains the motion, and the results are those of another model.
+    pub(crate) fn watch_redundant(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        length: f64,
+    ) -> Result<(), OutputError> {
+        let broken: Vec<_> = snapshot.broken(BROKEN, length).collect();
+        for unmet in broken {
+            if self.broken.insert(unmet.owner.clone()) {
+                self.warning(&format!(
+                    "{unmet} at time {}: this equation was left out as redundant, but the motion \
+                     no longer meets it; joints or motions contradict one another",
                     snapshot.time()
                 ))?;
             }

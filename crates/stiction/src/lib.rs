@@ -41,6 +41,7 @@
 mod channels;
 mod check;
 mod defaults;
+mod failure;
 mod journal;
 mod loader;
 mod lower;

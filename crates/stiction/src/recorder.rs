@@ -106,6 +106,8 @@ pub(crate) struct Observe<'a, W: Write> {
     /// Time from which the next row of the integrator's table is due.
     pub(crate) next_row: f64,
     pub(crate) row_interval: f64,
+    /// Typical length of the model.
+    pub(crate) length: f64,
     /// Set when writing stops the run.
     pub(crate) stop: Option<Stop>,
     /// Set when the watch stops the run.
@@ -140,7 +142,11 @@ impl<W: Write> Observer for Observe<'_, W> {
 
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
         let written = self.recorder.output(snapshot);
-        let warned = written.and_then(|()| self.log.watch_overlap(snapshot).map_err(Stop::Output));
+        let warned = written.and_then(|()| {
+            let watched = self.log.watch_overlap(snapshot);
+            let watched = watched.and_then(|()| self.log.watch_redundant(snapshot, self.length));
+            watched.map_err(Stop::Output)
+        });
         match warned {
             Ok(()) => true,
             Err(stop) => {

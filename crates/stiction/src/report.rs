@@ -17,8 +17,12 @@ pub struct FrictionReport {
     pub peak: f64,
     /// Time of the peak.
     pub peak_time: f64,
+    /// Unit of time.
+    pub time_unit: String,
     /// Unit of the peak.
     pub unit: String,
+    /// Unit of the energy.
+    pub energy_unit: String,
     /// Outputs stuck, in transition and sliding.
     pub regimes: [usize; 3],
     /// Outputs at which the limit of the friction force or torque was reached.
@@ -37,10 +41,12 @@ pub(crate) fn reports(snapshot: &Snapshot<'_>, units: &UnitNames) -> Vec<Frictio
         joint: model.joints[friction.joint].label.to_string(),
         peak: 0.0,
         peak_time: snapshot.time(),
+        time_unit: units.time.clone(),
         unit: match friction.load {
             FrictionJoint::Translational(_) => units.force.clone(),
             FrictionJoint::Revolute(_) | FrictionJoint::Spherical(_) => units.torque(),
         },
+        energy_unit: units.torque(),
         regimes: [0; 3],
         clipped: 0,
         energy: 0.0,
@@ -95,11 +101,11 @@ pub fn friction_table(reports: &[FrictionReport]) -> String {
             report.friction.clone(),
             report.joint.clone(),
             format!("{:.4e} {}{clipped}", report.peak, report.unit),
-            format!("{:.4}", report.peak_time),
+            format!("{:.4} {}", report.peak_time, report.time_unit),
             share(report.regimes[0]),
             share(report.regimes[1]),
             share(report.regimes[2]),
-            format!("{:.3e}", report.energy),
+            format!("{:.3e} {}", report.energy, report.energy_unit),
         ]);
     }
     let width = |k: usize| {

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use dataset::{CommandKind, Dataset, Simulate, SimulationKind};
-use mechanics::{Ending, RunError as MechanicsError, Simulation, Statistics};
+use mechanics::{Ending, Simulation, Statistics};
 use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
 
 use crate::channels::{Channels, Row, unit_names};
+use crate::failure;
 use crate::journal::Journal;
 use crate::lower::{Lowered, Measures, lower};
 use crate::message::{InputError, Message};
@@ -158,6 +159,8 @@ struct Runner<'a> {
     changed: bool,
     simulation: Simulation,
     assembled: bool,
+    /// Typical length of the assembled model.
+    length: f64,
     simulations: usize,
     started: Instant,
     last_end: f64,
@@ -226,6 +229,7 @@ impl<'a> Runner<'a> {
             changed: false,
             simulation,
             assembled: false,
+            length: 1.0,
             simulations: 0,
             started: Instant::now(),
             last_end: last_end(project),
@@ -298,7 +302,7 @@ impl<'a> Runner<'a> {
                 "{}:{line}:{column}: SIMULATE/{keyword} is not simulated yet; the run ends here",
                 source.name()
             );
-            return Err(Halt::Ended(Outcome::Refused(message)));
+            return Err(Halt::Ended(Outcome::Refused(format!("error: {message}"))));
         }
         self.take_changes()?;
         if !self.assembled {
@@ -335,35 +339,41 @@ impl<'a> Runner<'a> {
             }
             Err(diagnostics) => {
                 let text: Vec<String> = diagnostics.into_iter().map(|d| d.message).collect();
-                Err(Halt::Ended(Outcome::Refused(text.join("; "))))
+                Err(Halt::Ended(Outcome::Refused(format!(
+                    "error: {}",
+                    text.join("; ")
+                ))))
             }
         }
     }
 
     fn assemble(&mut self) -> Result<(), Halt> {
         let failed = |text: String| Halt::Ended(Outcome::AssemblyFailed(text));
+        let source = self.session.project.model_source();
+        let located = |message: Message| failed(message.text.trim_end().to_owned());
         let assembly = self
             .simulation
             .assemble()
-            .map_err(|error| failed(error.to_string()))?;
+            .map_err(|error| located(failure::of_assembly(&self.dataset, source, &error)))?;
+        self.length = self.simulation.system().length_scale();
         let system = self.simulation.system();
         self.log
             .assembly(&assembly, system.degrees_of_freedom(), system.model())?;
         self.simulation
             .solve_instant()
-            .map_err(|error| failed(error.to_string()))?;
+            .map_err(|error| located(failure::of_start(&self.dataset, source, &error)))?;
         self.assembled = true;
         let snapshot = self.simulation.snapshot();
         match self.recorder.initial(&snapshot) {
             Ok(()) => Ok(()),
             Err(Stop::Output(error)) => Err(Halt::Output(error)),
-            Err(Stop::NotFinite(text)) => Err(failed(text)),
+            Err(Stop::NotFinite(text)) => Err(failed(format!("error: {text}"))),
         }
     }
 
     fn dynamic(&mut self, simulate: &Simulate, watch: &mut dyn Watch) -> Result<(), Halt> {
         let start = self.simulation.state().time;
-        let refused = |text: String| Halt::Ended(Outcome::Refused(text));
+        let refused = |text: String| Halt::Ended(Outcome::Refused(format!("error: {text}")));
         let span = settings::span(simulate, start).map_err(refused)?;
         let span = span.ok_or_else(|| refused("SIMULATE needs END or DURATION".to_owned()))?;
         let integrator = self.dataset.integrator.as_ref();
@@ -380,6 +390,7 @@ impl<'a> Runner<'a> {
             end: self.last_end,
             next_row: start,
             row_interval: (end - start) / TABLE_ROWS,
+            length: self.length,
             stop: None,
             interrupted: false,
         };
@@ -390,6 +401,7 @@ impl<'a> Runner<'a> {
         match stop {
             Some(Stop::Output(error)) => return Err(Halt::Output(error)),
             Some(Stop::NotFinite(text)) => {
+                let text = format!("error: {text}");
                 return Err(Halt::Ended(Outcome::IntegrationFailed(text)));
             }
             None => {}
@@ -399,7 +411,9 @@ impl<'a> Runner<'a> {
             Ok(Ending::Stopped) if interrupted => return Err(Halt::Ended(Outcome::Interrupted)),
             Ok(Ending::Stopped) => {}
             Err(error) => {
-                let text = explain(&error);
+                let source = self.session.project.model_source();
+                let message = failure::of_run(&self.dataset, source, &error);
+                let text = message.text.trim_end().to_owned();
                 return Err(Halt::Ended(Outcome::IntegrationFailed(text)));
             }
         }
@@ -444,10 +458,6 @@ impl<'a> Runner<'a> {
             elapsed,
         })
     }
-}
-
-fn explain(error: &MechanicsError) -> String {
-    format!("the integration stopped {error}")
 }
 
 /// Time at which the last simulation of a project ends.

@@ -49,10 +49,11 @@ impl Least {
         self.factors.factor(&self.matrix)
     }
 
+    /// The unknowns that are closest to `wanted` by `weights` and meet the rows with `right`.
+    ///
     /// # Errors
     /// Where numbers are so large that nothing is left of others beside them: the diagonal is
     /// positive, so the matrix has an inverse whatever the rows are.
-
     pub(super) fn solve(
         &mut self,
         rows: &[Row],

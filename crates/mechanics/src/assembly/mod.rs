@@ -280,10 +280,28 @@ impl System {
         Ok(())
     }
 
+    /// Equations that were dropped as redundant and do not hold at the instant evaluated last, by
+    /// more than a part `tolerance` of the length, or as many radians.
+    pub(crate) fn broken(&self, tolerance: f64, length: f64) -> impl Iterator<Item = Unmet> + '_ {
+        let constraints = self.constraints.iter().zip(&self.evaluated);
+        constraints
+            .filter(|(constraint, _)| constraint.row.is_none())
+            .filter_map(move |(constraint, evaluated)| {
+                let (scale, quantity) = rows::scale_of(constraint.form, evaluated, length);
+                let error = evaluated.error.abs();
+                (scale * error > tolerance).then(|| Unmet {
+                    owner: self.owner_label(constraint.owner).clone(),
+                    equation: name(constraint.form),
+                    error,
+                    quantity,
+                })
+            })
+    }
+
     /// The element whose numbers leave nothing of others beside them.
     pub(super) fn out_of_scale(&self, singular: Singular) -> AssemblyError {
         AssemblyError::OutOfScale {
-            place: self.describe(singular.column),
+            element: self.element_at(singular.column).cloned(),
         }
     }
 

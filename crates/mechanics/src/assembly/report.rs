@@ -1,5 +1,6 @@
 //! What assembly did, or why it could not.
 
+use crate::instant::not_a_number;
 use crate::model::Label;
 
 /// An equation found redundant and dropped.
@@ -97,13 +98,13 @@ pub enum AssemblyError {
     },
     /// Numbers differ so much in size that nothing is left of some beside others.
     OutOfScale {
-        /// The body and component where it shows.
-        place: String,
+        /// The element where it shows.
+        element: Option<Label>,
     },
     /// A function of time or displacement gives no number.
     NotANumber {
         /// The element.
-        element: String,
+        element: Option<Label>,
     },
 }
 
@@ -135,18 +136,33 @@ impl std::fmt::Display for AssemblyError {
                     list(unmet)
                 )
             }
-            Self::OutOfScale { place } => write!(
-                f,
-                "the numbers of the model differ too much in size; it shows at {place}"
-            ),
+            Self::OutOfScale { element } => {
+                write!(f, "the numbers of the model differ too much in size")?;
+                match element {
+                    Some(element) => write!(f, "; it shows at {element}"),
+                    None => Ok(()),
+                }
+            }
             Self::NotANumber { element } => {
-                write!(
-                    f,
-                    "{element} gives a value that is not a finite number at the start"
-                )
+                write!(f, "{} at the start", not_a_number(element.as_ref()))
             }
         }
     }
 }
 
 impl std::error::Error for AssemblyError {}
+
+impl AssemblyError {
+    /// The element that it is about, the likeliest where there are several.
+    #[must_use]
+    pub fn element(&self) -> Option<&Label> {
+        match self {
+            Self::Inconsistent { given, unmet } => {
+                given.first().or(unmet.first()).map(|unmet| &unmet.owner)
+            }
+            Self::Opposite { joint, .. } => Some(joint),
+            Self::Velocities { unmet } => unmet.first().map(|unmet| &unmet.owner),
+            Self::OutOfScale { element } | Self::NotANumber { element } => element.as_ref(),
+        }
+    }
+}

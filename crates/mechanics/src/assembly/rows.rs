@@ -1,7 +1,7 @@
 //! The constraint equations and initial conditions in dimensionless form, as assembly solves them.
 
 use super::report::Unmet;
-use crate::constraint::{Form, name};
+use crate::constraint::{Evaluated, Form, name};
 use crate::equation::Equation;
 use crate::model::{Label, Level, MotionFreedom};
 use crate::system::System;
@@ -87,15 +87,7 @@ impl System {
             if constraint.row.is_none() {
                 continue;
             }
-            let (scale, quantity) = match constraint.form {
-                Form::Pair {
-                    equation: Equation::Along(_),
-                    ..
-                } => (1.0 / length, LENGTH),
-                Form::Pair { .. } => (1.0, ANGLE),
-                // Unknown dimension: scaled by the gradient where it is known.
-                Form::Function => (gradient_scale(&evaluated.jacobian, length), ""),
-            };
+            let (scale, quantity) = scale_of(constraint.form, evaluated, length);
             let blocks = constraint.bodies.iter().zip(&evaluated.jacobian);
             rows.push(Row {
                 error: scale * evaluated.error,
@@ -144,6 +136,19 @@ impl System {
             });
         }
         rows
+    }
+}
+
+/// What errors of an equation are multiplied with to become dimensionless, and what they are.
+pub(super) fn scale_of(form: Form, evaluated: &Evaluated, length: f64) -> (f64, &'static str) {
+    match form {
+        Form::Pair {
+            equation: Equation::Along(_),
+            ..
+        } => (1.0 / length, LENGTH),
+        Form::Pair { .. } => (1.0, ANGLE),
+        // Unknown dimension: scaled by the gradient where it is known.
+        Form::Function => (gradient_scale(&evaluated.jacobian, length), ""),
     }
 }
 

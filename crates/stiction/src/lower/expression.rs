@@ -226,7 +226,7 @@ impl Compiler {
             self.owner,
             function.name()
         );
-        lowering.error(Code::UnsupportedArgument, *span, message, None);
+        lowering.error(Code::UnsupportedFunction, *span, message, None);
         Refused
     }
 
@@ -240,7 +240,7 @@ impl Compiler {
             self.owner,
             function.name()
         );
-        lowering.error(Code::UnsupportedArgument, *span, message, None);
+        lowering.error(Code::UnsupportedFunction, *span, message, None);
         Refused
     }
 
