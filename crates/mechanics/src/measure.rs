@@ -323,25 +323,6 @@ pub fn slopes(quantity: Quantity, markers: [&MarkerFrame; 4], body: usize) -> [f
     .slopes
 }
 
-/// Slopes of a quantity of displacement by the motion of those of its markers that `moves` marks,
-/// alone: position and rotation about the marker's own origin, along ground axes.
-#[must_use]
-pub fn slopes_by_marker(
-    quantity: Quantity,
-    markers: [&MarkerFrame; 4],
-    moves: [bool; 4],
-) -> [f64; 6] {
-    let frames = [0, 1, 2, 3].map(|k| {
-        let alone = MarkerFrame {
-            arm: Vector3::zeros(),
-            ..*markers[k]
-        };
-        Frame::<Dual>::new(&alone, moves[k])
-    });
-    let slopes = evaluate(quantity, &frames).slopes;
-    std::array::from_fn(|k| slopes[k])
-}
-
 /// Value, rate, and second rate with all accelerations zero, of a quantity of displacement.
 pub(crate) fn jet(quantity: Quantity, markers: [&MarkerFrame; 4]) -> Jet {
     evaluate(quantity, &frames(markers, Frame::<Jet>::new))

@@ -2,8 +2,8 @@
 
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{
-    Effect, Formulation, Friction, FrictionArguments, FrictionInputs, JointKind, LengthUnit,
-    OverlapDelta, Yoke,
+    Effect, Formulation, Friction, FrictionArguments, FrictionInputs, FrictionQuantity, JointKind,
+    LengthUnit, OverlapDelta, Yoke,
 };
 use crate::source::Span;
 use crate::statements::Builder;
@@ -74,6 +74,7 @@ pub(crate) fn unused_arguments(
     statement: Span,
     diagnostics: &mut Diagnostics,
 ) {
+    use FrictionQuantity as Q;
     let name = format!("FRICTION/{}", friction.header.id);
     let mut unused = |keyword: &str, span, by: &str| {
         let message = format!("{keyword} of {name} is not used by {by}");
@@ -89,6 +90,10 @@ pub(crate) fn unused_arguments(
             unused(quantity.keyword(), *span, by_formulation);
         } else if !quantity.used_by(joint) {
             unused(quantity.keyword(), *span, &by_joint);
+        } else if matches!(quantity, Q::FrictionForcePreload | Q::FrictionTorquePreload)
+            && !friction.inputs.preload
+        {
+            unused(quantity.keyword(), *span, "INPUTS without PRELOAD");
         }
     }
     if given.effect.is_some_and(|effect| effect != Effect::All)

@@ -10,7 +10,7 @@ use crate::scalar::Jet;
 use crate::state::{MarkerFrame, State};
 
 impl System {
-    pub(super) fn measure_frames(&self, measure: usize) -> [MarkerFrame; 4] {
+    fn measure_frames(&self, measure: usize) -> [MarkerFrame; 4] {
         self.model.measures[measure]
             .markers()
             .map(|m| self.marker(m))

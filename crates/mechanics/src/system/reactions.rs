@@ -3,11 +3,9 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::System;
-use crate::constraint::{Form, Owner};
+use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::equation::Equation;
-use crate::expression::Input;
 use crate::joint_friction::{self, Element, Share};
-use crate::measure;
 use crate::rotation::skew;
 use crate::snapshot::Wrench;
 use crate::state::MarkerFrame;
@@ -29,9 +27,12 @@ impl System {
                     wrench.torque += torque - self.marker(i).arm.cross(&force);
                 }
                 (Form::Function, Owner::General(place)) => {
-                    let [force, torque] = self.gradient_at_i(place);
-                    wrench.force += multipliers[row] * force;
-                    wrench.torque += multipliers[row] * torque;
+                    let Some(i) = self.model.constraints[place].i else {
+                        continue;
+                    };
+                    let on_part = self.gradient_about(&self.marker(i), constraint, evaluated);
+                    wrench.force += multipliers[row] * on_part.force;
+                    wrench.torque += multipliers[row] * on_part.torque;
                 }
                 (Form::Function, _) => {}
             }
@@ -39,33 +40,29 @@ impl System {
         wrench
     }
 
-    /// Gradient of a general constraint by the motion of its marker I alone: what its multiplier
-    /// applies there.
-    fn gradient_at_i(&self, place: usize) -> [Vector3<f64>; 2] {
-        let constraint = &self.model.constraints[place];
-        let function = &constraint.function;
-        let mut registers = vec![0.0; function.len()];
-        let mut adjoints = vec![0.0; function.len()];
-        function.evaluate(&mut registers, |input| {
-            super::evaluation::read(input, self.time, &self.measures)
-        });
-        let mut gradient = [Vector3::zeros(); 2];
-        function.gradient(&registers, &mut adjoints, |input, slope| {
-            let Input::Measure(measure) = input else {
-                return;
-            };
-            let moves = self.model.measures[measure]
-                .markers()
-                .map(|marker| Some(marker) == constraint.i);
-            let [i, j, k, l] = self.measure_frames(measure);
-            let quantity = self.model.measures[measure].quantity;
-            let slopes = measure::slopes_by_marker(quantity, [&i, &j, &k, &l], moves);
-            for axis in 0..3 {
-                gradient[0][axis] += slope * slopes[axis];
-                gradient[1][axis] += slope * slopes[3 + axis];
+    /// What a unit multiplier of a constraint applies to the part of a marker, about its origin. On
+    /// ground it is the opposite of what it applies to all bodies.
+    fn gradient_about(
+        &self,
+        marker: &MarkerFrame,
+        constraint: &Constraint,
+        evaluated: &Evaluated,
+    ) -> Wrench {
+        let mut sum = Wrench::default();
+        for (&body, block) in constraint.bodies.iter().zip(&evaluated.jacobian) {
+            let force = Vector3::new(block[0], block[1], block[2]);
+            let arm = self.bodies[body].centre - marker.origin;
+            let torque = Vector3::new(block[3], block[4], block[5]) + arm.cross(&force);
+            if marker.body == Some(body) {
+                return Wrench { force, torque };
             }
-        });
-        gradient
+            sum.force -= force;
+            sum.torque -= torque;
+        }
+        match marker.body {
+            None => sum,
+            Some(_) => Wrench::default(),
+        }
     }
 
     /// Reaction of a friction's joint on I at marker I, along the axes of J.
