@@ -188,6 +188,17 @@ impl Dynamics {
         self.rate = 0.0;
     }
 
+    /// Solves the next steps as I3.
+    pub(crate) fn cross(&mut self) {
+        self.index3_left = INDEX3_STEPS;
+        self.factored = None;
+    }
+
+    /// Whether the next step is one of SI2 that is solved as I3.
+    pub(crate) fn crosses(&self) -> bool {
+        self.index3_left > 0
+    }
+
     /// Positions from velocities: `x = x̂ + γ u + ν`.
     fn positions_from_velocities(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
         let bodies = self.system.model.bodies.len();

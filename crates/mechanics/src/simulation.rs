@@ -299,12 +299,27 @@ impl Simulation {
         bdf.start(self.state.time, &self.state.values, &slope, first);
         let mut next = 0;
         let mut ending = Ending::Completed;
+        let (mut crossed, mut crossing) = (f64::NEG_INFINITY, false);
         while bdf.time() < end && ending == Ending::Completed {
             let advanced = bdf.advance(dynamics, end);
             self.scales = dynamics.scales;
             self.statistics = total(before, bdf.statistics(), dynamics.work);
             if let Err(error) = advanced {
-                return Err(self.run_error(&error));
+                // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
+                // has only positions to meet.
+                let further = bdf.time() > crossed;
+                if settings.formulation == Formulation::I3 || !further {
+                    return Err(self.run_error(&error));
+                }
+                crossed = bdf.time();
+                self.restart(bdf, dynamics, instant, settings)?;
+                dynamics.cross();
+                crossing = true;
+                continue;
+            }
+            if crossing && !dynamics.crosses() {
+                crossing = false;
+                self.restart(bdf, dynamics, instant, settings)?;
             }
             let report = StepReport {
                 time: bdf.time(),
@@ -329,6 +344,22 @@ impl Simulation {
         }
         self.system.history.clone_from(&dynamics.system.history);
         Ok(ending)
+    }
+
+    /// Starts the integrator anew from where it is, without its past.
+    fn restart(
+        &mut self,
+        bdf: &mut Bdf,
+        dynamics: &mut Dynamics,
+        instant: &mut Instant,
+        settings: &Settings,
+    ) -> Result<(), RunError> {
+        self.take(bdf, dynamics, bdf.time(), instant)?;
+        dynamics.multipliers.copy_from_slice(&self.multipliers);
+        let first = 1e-3 * settings.longest_step;
+        let slope = slope(&self.state, &self.accelerations);
+        bdf.start(self.state.time, &self.state.values, &slope, first);
+        Ok(())
     }
 
     /// Brings the state onto the constraints and solves its accelerations and reactions.

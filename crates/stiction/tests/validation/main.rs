@@ -8,6 +8,7 @@ mod corpus;
 mod delta_robot;
 mod instants;
 mod invariance;
+mod jumps;
 mod machines;
 mod run;
 mod table;
