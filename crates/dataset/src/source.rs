@@ -30,7 +30,8 @@ impl Span {
 
 /// A named text with line numbers.
 ///
-/// Adams files are not UTF-8: bytes are read as Latin-1, so every byte string is a text, and a byte above 127 becomes a two-byte character of [`Source::text`].
+/// Bytes that are UTF-8 are read as such. Files of Adams are not: their bytes are read as Latin-1,
+/// so that every byte string is a text, and a byte above 127 becomes a character of two bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     name: String,
@@ -78,9 +79,10 @@ impl Source {
                 "files of up to 4 GB are read",
             );
         }
-        let text = match bytes.strip_prefix(b"\xEF\xBB\xBF") {
-            Some(rest) => rest.iter().map(|byte| char::from(*byte)).collect(),
-            None => bytes.iter().map(|byte| char::from(*byte)).collect(),
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) => text.to_owned(),
+            Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
         };
         Ok(Self::from_text(name, text))
     }

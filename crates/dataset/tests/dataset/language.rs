@@ -396,6 +396,15 @@ fn latin_1_is_read_and_columns_count_characters() {
 }
 
 #[test]
+fn utf_8_is_read_as_such() {
+    let text = "\u{feff}café\nPART/1, GROUND\nREQUEST/1, C=日本, WRONG=1\n";
+    let source = Source::from_bytes("utf.adm", text.as_bytes()).expect("text");
+    assert_eq!(read_dataset(&source).0.title, "café");
+    let place = source.text().find("WRONG").unwrap();
+    assert_eq!(source.line_column(place), (3, 18));
+}
+
+#[test]
 fn tokens_keep_comments_and_blanks() {
     let text = "t\nPART/1 ! c\n , GROUND\t\"a b\" 3DBEAM 1.5E-3D x_1**2";
     let source = Source::from_text("t.adm", text.to_string());
