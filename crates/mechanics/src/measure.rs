@@ -255,7 +255,15 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
         Quantity::EulerParameter(n) => euler_parameter(n, &c),
         Quantity::Velocity(axis) => seen().dot(&k.axes[axis]),
         Quantity::Speed => seen().norm(),
-        Quantity::SeparationRate => i.velocity.minus(&j.velocity).dot(&d) / d.norm(),
+        Quantity::SeparationRate => {
+            let length = d.norm();
+            // Markers that coincide have no line along which they could part.
+            if length.value() == 0.0 {
+                T::constant(0.0)
+            } else {
+                i.velocity.minus(&j.velocity).dot(&d) / length
+            }
+        }
         Quantity::AngularVelocity(axis) => spin().dot(&k.axes[axis]),
         Quantity::AngularSpeed => spin().norm(),
         Quantity::Acceleration(_)

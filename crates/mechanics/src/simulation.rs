@@ -16,6 +16,9 @@ use crate::system::System;
 /// which lose an order; with this part they, too, stay near the tolerance.
 const INDEX3_SHARE: f64 = 0.1;
 
+/// How often the first step is estimated anew from a shorter look ahead.
+const CLOSER_LOOKS: usize = 6;
+
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -425,41 +428,53 @@ impl Simulation {
         settings: &Settings,
     ) -> f64 {
         let longest = settings.longest_step.min(end - self.state.time);
-        let ahead = 1e-3 * longest;
+        let mut ahead = 1e-3 * longest;
+        // What changes within the time looked ahead calls for a closer look.
+        for _ in 0..CLOSER_LOOKS {
+            let Some(error) = self.curvature_error(instant, dynamics, slope, ahead) else {
+                return ahead;
+            };
+            let size = (0.5 / error.max(1e-300)).sqrt().min(0.1 * longest);
+            if !(size < 0.1 * ahead) {
+                return size.max(settings.shortest_step);
+            }
+            ahead = size;
+        }
+        ahead.max(settings.shortest_step)
+    }
+
+    /// Error of a step of one by the formula of order one, in units of the tolerance: half the
+    /// second derivative, from the slope a time `ahead`. None where that cannot be found.
+    fn curvature_error(
+        &self,
+        instant: &mut Instant,
+        dynamics: &Dynamics,
+        slope: &[f64],
+        ahead: f64,
+    ) -> Option<f64> {
         let mut later = self.clone();
         later.state.time += ahead;
         let step: Vec<f64> = self.state.velocities().iter().map(|u| u * ahead).collect();
         later.state.displace(&step);
-        for (u, a) in later
-            .state
-            .velocities_mut()
-            .iter_mut()
-            .zip(&self.accelerations)
-        {
+        let velocities = later.state.velocities_mut().iter_mut();
+        for (u, a) in velocities.zip(&self.accelerations) {
             *u += ahead * a;
         }
-        let solved = instant.accelerations(
-            &mut later.system,
-            &later.state,
-            &mut later.accelerations,
-            &mut later.multipliers,
-        );
-        if solved.is_err() {
-            return ahead;
-        }
-        let later_slope = self::slope(&later.state, &later.accelerations);
-        let half_curvature: Vec<f64> = later_slope
+        instant
+            .accelerations(
+                &mut later.system,
+                &later.state,
+                &mut later.accelerations,
+                &mut later.multipliers,
+            )
+            .ok()?;
+        let half_curvature: Vec<f64> = self::slope(&later.state, &later.accelerations)
             .iter()
             .zip(slope)
             .map(|(b, a)| 0.5 * (b - a) / ahead)
             .collect();
         let error = bdf::System::norm(dynamics, &half_curvature);
-        let size = (0.5 / error.max(1e-300)).sqrt();
-        if size.is_finite() {
-            size.clamp(1e-6 * longest, 0.1 * longest)
-        } else {
-            ahead
-        }
+        error.is_finite().then_some(error)
     }
 
     fn run_error(&self, error: &bdf::Error<Failure>) -> RunError {

@@ -377,7 +377,12 @@ impl<'a> Runner<'a> {
         let span = settings::span(simulate, start).map_err(refused)?;
         let span = span.ok_or_else(|| refused("SIMULATE needs END or DURATION".to_owned()))?;
         let integrator = self.dataset.integrator.as_ref();
-        let choice = settings::choose(integrator, span.step, self.options.error);
+        let choice = settings::choose(
+            integrator,
+            span.step,
+            self.options.error,
+            second(&self.dataset),
+        );
         let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
         self.log.begin(&choice.settings, &notes, start)?;
         self.recorder.begin(DataKind::Dynamic)?;

@@ -5,6 +5,8 @@ use mechanics::{Formulation, Settings};
 
 /// Error tolerance without an INTEGRATOR statement.
 const OWN_ERROR: f64 = 1e-6;
+/// Shortest step where HMIN is not given and that of Adams would be longer, seconds.
+const SHORTEST: f64 = 1e-9;
 /// Highest order of the formulas that are stable enough to be used.
 const HIGHEST_ORDER: u32 = 5;
 /// Output steps of a SIMULATE with neither STEPS nor DTOUT.
@@ -22,12 +24,14 @@ pub(crate) struct Choice {
 
 /// Settings of a simulation with outputs every `output_step`; `error` overrides the tolerance.
 ///
-/// Defaults are those of Adams (I3, error 1e-3, HMAX of one output step, HMIN of 1e-6 HMAX,
-/// KMAX 6, MAXIT 10), except that without any INTEGRATOR statement it is SI2 with error 1e-6.
+/// Defaults are those of Adams (I3, error 1e-3, HMAX of one output step, KMAX 6, MAXIT 10), except
+/// that without any INTEGRATOR statement it is SI2 with error 1e-6, and that HMIN is a nanosecond
+/// where 1e-6 HMAX is longer. `second` is one second in the unit of time.
 pub(crate) fn choose(
     integrator: Option<&Integrator>,
     output_step: f64,
     error: Option<f64>,
+    second: f64,
 ) -> Choice {
     let mut notes = Vec::new();
     let fallback = Integrator::default();
@@ -76,7 +80,10 @@ pub(crate) fn choose(
         error: error.or(given.error).unwrap_or(default_error),
         highest_order: highest_order as usize,
         longest_step,
-        shortest_step: given.hmin.unwrap_or(1e-6 * longest_step),
+        // Adams' 1e-6 HMAX would keep long output steps from resolving a stick.
+        shortest_step: given
+            .hmin
+            .unwrap_or((1e-6 * longest_step).min(SHORTEST * second)),
         first_step: given.hinit,
         newton_iterations: given.maxit.unwrap_or(10) as usize,
     };
@@ -207,7 +214,7 @@ mod tests {
 
     #[test]
     fn settings_follow_the_statement_and_its_defaults() {
-        let own = choose(None, 0.01, None);
+        let own = choose(None, 0.01, None, 1.0);
         assert_eq!(own.settings.formulation, Formulation::Si2);
         assert_eq!(own.settings.error, 1e-6);
         assert_eq!(own.settings.longest_step, 0.01);
@@ -219,12 +226,15 @@ mod tests {
             pattern: Some(vec![true]),
             ..Integrator::default()
         };
-        let chosen = choose(Some(&given), 0.01, None);
+        let chosen = choose(Some(&given), 0.01, None, 1.0);
         assert_eq!(chosen.settings.formulation, Formulation::I3);
         assert_eq!(chosen.settings.error, 1e-5);
         assert_eq!(chosen.settings.highest_order, 5);
         assert_eq!(chosen.settings.shortest_step, 1e-9);
         assert_eq!(chosen.notes.len(), 3);
-        assert_eq!(choose(Some(&given), 0.01, Some(1e-4)).settings.error, 1e-4);
+        assert_eq!(
+            choose(Some(&given), 0.01, Some(1e-4), 1.0).settings.error,
+            1e-4
+        );
     }
 }

@@ -17,6 +17,7 @@ use numerics::linear::Singular;
 pub use report::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
 
 use crate::constraint::{Form, codirected_axes, name};
+use crate::model::Level;
 use crate::state::State;
 use crate::system::System;
 use least_change::{Least, REGULARISATION};
@@ -288,7 +289,12 @@ impl System {
             .filter(|(constraint, _)| constraint.row.is_none())
             .filter_map(move |(constraint, evaluated)| {
                 let (scale, quantity) = rows::scale_of(constraint.form, evaluated, length);
-                let error = evaluated.error.abs();
+                let error = match constraint.level {
+                    Level::Position => evaluated.error,
+                    Level::Velocity => evaluated.rate - self.rate_along(constraint, evaluated),
+                    Level::Acceleration => 0.0,
+                };
+                let error = error.abs();
                 (scale * error > tolerance).then(|| Unmet {
                     owner: self.owner_label(constraint.owner).clone(),
                     equation: name(constraint.form),

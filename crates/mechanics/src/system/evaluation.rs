@@ -1,7 +1,7 @@
 //! What depends on time and state alone: frames, measures, constraint equations.
 
 use super::System;
-use crate::constraint::{Form, Owner};
+use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::equation::{Equation, Local, local_velocities};
 use crate::expression::Input;
 use crate::measure::{self, Order, Quantity};
@@ -200,18 +200,23 @@ impl System {
             },
         });
         // G u + ∂g/∂t is the rate of the jet; what remains beside G u is prescribed.
-        let along: f64 = bodies
-            .iter()
-            .zip(&evaluated.jacobian)
+        let along = self.rate_along(&self.constraints[place], &self.evaluated[place]);
+        let evaluated = &mut self.evaluated[place];
+        evaluated.rate = along - jet.rate;
+        evaluated.acceleration = -jet.acceleration;
+    }
+
+    /// `G u` with the velocities of the bodies as they were evaluated last.
+    pub(crate) fn rate_along(&self, constraint: &Constraint, evaluated: &Evaluated) -> f64 {
+        let blocks = constraint.bodies.iter().zip(&evaluated.jacobian);
+        blocks
             .map(|(&body, row)| {
-                let frame = &frames[body];
+                let frame = &self.bodies[body];
                 (0..3)
                     .map(|k| row[k] * frame.velocity[k] + row[3 + k] * frame.omega[k])
                     .sum::<f64>()
             })
-            .sum();
-        evaluated.rate = along - jet.rate;
-        evaluated.acceleration = -jet.acceleration;
+            .sum()
     }
 }
 
