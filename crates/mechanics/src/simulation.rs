@@ -16,9 +16,6 @@ use crate::system::System;
 /// which lose an order; with this part they, too, stay near the tolerance.
 const INDEX3_SHARE: f64 = 0.1;
 
-/// How often the first step is estimated anew from a shorter look ahead.
-const CLOSER_LOOKS: usize = 6;
-
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -428,19 +425,14 @@ impl Simulation {
         settings: &Settings,
     ) -> f64 {
         let longest = settings.longest_step.min(end - self.state.time);
-        let mut ahead = 1e-3 * longest;
-        // What changes within the time looked ahead calls for a closer look.
-        for _ in 0..CLOSER_LOOKS {
-            let Some(error) = self.curvature_error(instant, dynamics, slope, ahead) else {
-                return ahead;
-            };
-            let size = (0.5 / error.max(1e-300)).sqrt().min(0.1 * longest);
-            if !(size < 0.1 * ahead) {
-                return size.max(settings.shortest_step);
+        let ahead = 1e-3 * longest;
+        match self.curvature_error(instant, dynamics, slope, ahead) {
+            Some(error) => {
+                let size = (0.5 / error.max(1e-300)).sqrt();
+                size.min(0.1 * longest).max(settings.shortest_step)
             }
-            ahead = size;
+            None => ahead,
         }
-        ahead.max(settings.shortest_step)
     }
 
     /// Error of a step of one by the formula of order one, in units of the tolerance: half the
