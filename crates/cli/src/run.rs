@@ -119,7 +119,8 @@ fn tell(folder: &Path, report: &RunReport) {
         report.time, report.outputs, steps.steps, report.elapsed
     );
     if report.warnings > 0 {
-        text += &format!(", {} warnings (see the .msg)", report.warnings);
+        let plural = if report.warnings == 1 { "" } else { "s" };
+        text += &format!(", {} warning{plural} (see the .msg)", report.warnings);
     }
     text += &format!("\nresults in {}:", folder.display());
     for file in &report.files {

@@ -7,6 +7,7 @@
 
 use nalgebra::Vector3;
 
+use crate::rotation;
 use crate::scalar::{Dual, Jet, Scalar, Triple};
 use crate::state::MarkerFrame;
 
@@ -231,12 +232,16 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
         i.velocity.minus(&j.velocity).minus(&drift)
     };
     let spin = || i.omega.minus(&j.omega);
+    let parallel = || c(2, 0).value().hypot(c(2, 1).value()) < rotation::PARALLEL;
     match quantity {
         Quantity::Displacement(axis) => d.dot(&k.axes[axis]),
         Quantity::Distance => d.norm(),
         Quantity::Rotation(0) => (-c(2, 1)).atan2(c(2, 2)),
         Quantity::Rotation(1) => c(2, 0).atan2(c(2, 2)),
         Quantity::Rotation(_) => c(0, 1).atan2(c(0, 0)),
+        // Where the z axes are parallel only ψ ± φ is determined; φ is then zero.
+        Quantity::Euler(0) if parallel() => c(0, 1).atan2(c(0, 0)),
+        Quantity::Euler(2) if parallel() => T::constant(0.0),
         Quantity::Euler(0) => c(2, 0).atan2(-c(2, 1)),
         Quantity::Euler(1) => (c(2, 0) * c(2, 0) + c(2, 1) * c(2, 1))
             .sqrt()
@@ -503,6 +508,16 @@ mod tests {
         let markers = [&turned, &ground, &ground, &ground];
         for (n, angle) in angles.iter().enumerate() {
             assert!((value(Quantity::Euler(n), markers) - angle).abs() < 1e-14);
+        }
+        for tilt in [0.0, std::f64::consts::PI] {
+            let flat = MarkerFrame {
+                axes: from_euler_313(&[0.4, tilt, 0.0]),
+                ..ground
+            };
+            let markers = [&flat, &ground, &ground, &ground];
+            for (n, angle) in [0.4, tilt, 0.0].iter().enumerate() {
+                assert!((value(Quantity::Euler(n), markers) - angle).abs() < 1e-14);
+            }
         }
         let q = Quaternion::from_matrix(&turned.axes);
         for (n, e) in [q.w, q.v.x, q.v.y, q.v.z].iter().enumerate() {

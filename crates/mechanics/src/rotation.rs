@@ -158,6 +158,9 @@ pub fn from_euler_313(angles: &[f64; 3]) -> Matrix3<f64> {
     rz(angles[0]) * rx * rz(angles[2])
 }
 
+/// Sine of θ below which the z axes of 3-1-3 angles count as parallel.
+pub(crate) const PARALLEL: f64 = 1e-12;
+
 /// Body-fixed 3-1-3 Euler angles ψ, θ, φ of a rotation matrix; θ in `[0, π]`.
 ///
 /// Where θ is 0 or π only ψ ± φ is determined; φ is then zero.
@@ -165,7 +168,7 @@ pub fn from_euler_313(angles: &[f64; 3]) -> Matrix3<f64> {
 pub fn to_euler_313(m: &Matrix3<f64>) -> [f64; 3] {
     let sine = m[(2, 0)].hypot(m[(2, 1)]);
     let theta = sine.atan2(m[(2, 2)]);
-    if sine < 1e-12 {
+    if sine < PARALLEL {
         return [m[(1, 0)].atan2(m[(0, 0)]), theta, 0.0];
     }
     [

@@ -216,7 +216,8 @@ fn base_name(path: &str) -> &str {
 }
 
 /// The file that a command means: the path as written from the folder of the command file, else
-/// its base name there; with the extension added where it is missing.
+/// its base name there, in the end without regard to case (names written on Windows); with the
+/// extension added where it is missing.
 fn resolve(folder: &Path, written: &str, extension: &str) -> PathBuf {
     let with_extension = |name: &str| {
         let has = Path::new(name)
@@ -231,10 +232,26 @@ fn resolve(folder: &Path, written: &str, extension: &str) -> PathBuf {
     let written = written.trim();
     let direct = with_extension(written);
     if direct.is_file() {
-        direct
-    } else {
-        with_extension(base_name(written))
+        return direct;
     }
+    let beside = with_extension(base_name(written));
+    if beside.is_file() {
+        return beside;
+    }
+    in_any_case(&beside).unwrap_or(beside)
+}
+
+/// The file of a folder whose name differs in case only; the first one by name.
+fn in_any_case(path: &Path) -> Option<PathBuf> {
+    let (folder, name) = (path.parent()?, path.file_name()?);
+    let entries = std::fs::read_dir(folder).ok()?;
+    let same = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| {
+            path.file_name()
+                .is_some_and(|n| n.eq_ignore_ascii_case(name))
+        });
+    same.min()
 }
 
 #[cfg(test)]
@@ -248,5 +265,14 @@ mod tests {
         let found = resolve(Path::new("here"), "arm.v2", "adm");
         assert_eq!(found, Path::new("here").join("arm.v2.adm"));
         assert_eq!(base_name("plain"), "plain");
+    }
+
+    #[test]
+    fn names_in_another_case_are_found() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+        assert_eq!(
+            resolve(folder, "cargo.TOML", "toml"),
+            folder.join("Cargo.toml")
+        );
     }
 }
