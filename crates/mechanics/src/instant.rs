@@ -248,6 +248,17 @@ impl System {
         Some(self.owner_label(self.constraints[constraint].owner))
     }
 
+    /// The friction of the joint whose multiplier an unknown of the Newton matrix is.
+    fn friction_at(&self, place: usize) -> Option<&Label> {
+        let row = place.checked_sub(self.velocity_count())?;
+        let constraint = *self.rows.get(row)?;
+        let Owner::Joint(joint) = self.constraints[constraint].owner else {
+            return None;
+        };
+        let friction = self.model.frictions.iter().find(|f| f.joint == joint)?;
+        Some(&friction.label)
+    }
+
     /// The element that a failure is about, where there is one.
     #[must_use]
     pub fn element_of<'a>(&'a self, failure: &'a Failure) -> Option<&'a Label> {
@@ -299,10 +310,16 @@ impl System {
                 self.describe(singular.row),
                 self.describe(singular.column)
             ),
-            Failure::NotConverged { unknown } => format!(
-                "Newton's iteration did not converge; {} changed most",
-                self.describe(*unknown)
-            ),
+            Failure::NotConverged { unknown } => {
+                let place = self.describe(*unknown);
+                let jam = self.friction_at(*unknown).map_or(String::new(), |friction| {
+                    format!(
+                        "; {friction} jams where the friction that a load causes adds as much to \
+                         that load (a gain of one)"
+                    )
+                });
+                format!("Newton's iteration did not converge; {place} changed most{jam}")
+            }
             Failure::NotANumber { element } => not_a_number(element.as_ref()),
             Failure::TurnsTooFar { body } => {
                 format!(
