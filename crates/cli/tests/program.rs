@@ -421,3 +421,28 @@ fn help_says_what_there_is() {
         assert!(said.contains(word), "{word}");
     }
 }
+
+#[test]
+fn errors_and_what_is_not_simulated_show_together() {
+    let text = "two kinds of errors
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=-1, CM=20, IP=0.1, 0.1, 0.1
+MARKER/20, PART=2
+JOINT/1, CYLINDRICAL, I=20, J=1
+FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2
+END
+";
+    let folder = folder("together", &[("both.adm", text)]);
+    let output = stiction(&folder, &["check", "both.adm"]);
+    assert_eq!(code(&output), 3);
+    let said = errors(&output);
+    assert!(
+        said.contains("both.adm:4:14: error[out-of-range]"),
+        "{said}"
+    );
+    assert!(
+        said.contains("both.adm:7:1: error[unsupported-statement]"),
+        "{said}"
+    );
+}

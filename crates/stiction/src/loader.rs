@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use dataset::{Code, Command, CommandKind, Dataset, Diagnostic, Severity, Source, Span};
 
+use crate::lower::{Measures, lower};
 use crate::message::{InputError, Message};
 use crate::project::{Project, SourcedCommand};
 
@@ -190,9 +191,33 @@ impl Loader {
         self.read_dataset(&found, Some(naming));
     }
 
-    fn finish(self, is_dataset: bool) -> Result<Project, InputError> {
-        let failed = self.messages.iter().any(Message::is_error);
-        let Some((dataset, model)) = self.dataset.filter(|_| !failed) else {
+    /// What the dataset asks for that is not simulated, so that it shows together with its errors.
+    /// Other errors of lowering would only follow from those.
+    fn unsupported(&self) -> Vec<Message> {
+        let Some((dataset, model)) = &self.dataset else {
+            return Vec::new();
+        };
+        let source = &self.sources[*model];
+        let lowered = lower(dataset, source.name(), &mut Measures::default());
+        let diagnostics = lowered.err().unwrap_or_default();
+        let unsupported = diagnostics.into_iter().filter(|diagnostic| {
+            matches!(
+                diagnostic.code,
+                Code::UnsupportedStatement | Code::UnsupportedArgument | Code::UnsupportedFunction
+            )
+        });
+        unsupported.map(|d| Message::new(d, source)).collect()
+    }
+
+    fn finish(mut self, is_dataset: bool) -> Result<Project, InputError> {
+        if self.messages.iter().any(Message::is_error) {
+            let unsupported = self.unsupported();
+            self.messages.extend(unsupported);
+            return Err(InputError {
+                messages: self.messages,
+            });
+        }
+        let Some((dataset, model)) = self.dataset else {
             return Err(InputError {
                 messages: self.messages,
             });
