@@ -317,10 +317,6 @@ impl Simulation {
                 crossing = true;
                 continue;
             }
-            if crossing && !dynamics.crosses() {
-                crossing = false;
-                self.restart(bdf, dynamics, instant, settings)?;
-            }
             let report = StepReport {
                 time: bdf.time(),
                 size: bdf.last_size(),
@@ -337,6 +333,11 @@ impl Simulation {
             }
             if !observer.step(&report) {
                 ending = Ending::Stopped;
+            }
+            // Only now: outputs within the step needed its past.
+            if crossing && !dynamics.crosses() {
+                crossing = false;
+                self.restart(bdf, dynamics, instant, settings)?;
             }
         }
         if ending == Ending::Completed && self.state.time != end {
