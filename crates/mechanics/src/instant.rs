@@ -66,7 +66,6 @@ impl Instant {
         accelerations: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<(), Failure> {
-        // At γ = 0 the matrix needs no derivatives by position and velocity.
         system.evaluate(state, false);
         let n = system.velocity_count();
         let mut last = f64::INFINITY;
@@ -75,16 +74,7 @@ impl Instant {
         for _ in 0..ITERATIONS {
             self.residual(system, accelerations, multipliers)?;
             if renew {
-                system.assemble(
-                    Rows::Position,
-                    0.0,
-                    &self.zero,
-                    multipliers,
-                    &mut self.matrix,
-                );
-                self.factors
-                    .factor(&self.matrix)
-                    .map_err(Failure::Singular)?;
+                self.factor(system, multipliers)?;
             }
             self.factors.solve(&mut self.right);
             let mut change = 0.0_f64;
@@ -114,6 +104,19 @@ impl Instant {
             last = change;
         }
         Err(Failure::NotConverged { unknown: worst })
+    }
+
+    /// Builds and factors the matrix at the state evaluated last. At γ = 0 it needs no derivatives
+    /// by position and velocity.
+    fn factor(&mut self, system: &mut System, multipliers: &[f64]) -> Result<(), Failure> {
+        system.assemble(
+            Rows::Position,
+            0.0,
+            &self.zero,
+            multipliers,
+            &mut self.matrix,
+        );
+        self.factors.factor(&self.matrix).map_err(Failure::Singular)
     }
 
     /// Right-hand side: forces less inertia, and what the constraints lack.
@@ -158,16 +161,7 @@ impl Instant {
     ) -> Result<(), Failure> {
         let n = system.velocity_count();
         system.evaluate(state, false);
-        system.assemble(
-            Rows::Position,
-            0.0,
-            &self.zero,
-            multipliers,
-            &mut self.matrix,
-        );
-        self.factors
-            .factor(&self.matrix)
-            .map_err(Failure::Singular)?;
+        self.factor(system, multipliers)?;
         // One matrix serves: the corrections are of the size of the integration error.
         for _ in 0..10 {
             let mut error = 0.0_f64;

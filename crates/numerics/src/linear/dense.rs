@@ -1,18 +1,10 @@
-//! Dense LU with partial pivoting.
+//! Dense LU with partial pivoting, the oracle of the sparse one.
 
 use super::Singular;
 
 /// LU factors of a full square matrix, with row interchanges.
-///
-/// ```
-/// let mut lu = numerics::linear::DenseLu::new(2);
-/// lu.factor(&[0.0, 2.0, 4.0, 1.0]).unwrap();
-/// let mut x = [2.0, 5.0];
-/// lu.solve(&mut x);
-/// assert_eq!(x, [1.0, 1.0]);
-/// ```
 #[derive(Clone, Debug)]
-pub struct DenseLu {
+pub(super) struct DenseLu {
     size: usize,
     /// Row-major: unit lower triangle below the diagonal, upper triangle on and above it.
     factors: Vec<f64>,
@@ -24,7 +16,7 @@ pub struct DenseLu {
 impl DenseLu {
     /// Room for a matrix of `size` rows.
     #[must_use]
-    pub fn new(size: usize) -> Self {
+    pub(super) fn new(size: usize) -> Self {
         Self {
             size,
             factors: vec![0.0; size * size],
@@ -40,7 +32,7 @@ impl DenseLu {
     ///
     /// # Panics
     /// When `matrix` does not hold `size * size` values.
-    pub fn factor(&mut self, matrix: &[f64]) -> Result<(), Singular> {
+    pub(super) fn factor(&mut self, matrix: &[f64]) -> Result<(), Singular> {
         let n = self.size;
         assert_eq!(
             matrix.len(),
@@ -96,7 +88,7 @@ impl DenseLu {
     ///
     /// # Panics
     /// When `b` does not hold `size` values.
-    pub fn solve(&mut self, b: &mut [f64]) {
+    pub(super) fn solve(&mut self, b: &mut [f64]) {
         let n = self.size;
         assert_eq!(b.len(), n, "the right-hand side must hold size values");
         for k in 0..n {
@@ -117,9 +109,17 @@ impl DenseLu {
     }
 }
 
-#[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_small_system_is_solved() {
+        let mut lu = DenseLu::new(2);
+        lu.factor(&[0.0, 2.0, 4.0, 1.0]).unwrap();
+        let mut x = [2.0, 5.0];
+        lu.solve(&mut x);
+        assert_eq!(x, [1.0, 1.0]);
+    }
 
     #[test]
     fn a_dependent_row_is_reported() {

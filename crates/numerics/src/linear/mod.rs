@@ -1,14 +1,13 @@
 //! Matrices assembled in a fixed order, and their factorisation.
 //!
 //! [`Matrix`] is sparse with a pattern found once; [`SparseLu`] analyses that pattern once and
-//! refactors many times; [`DenseLu`] is the oracle the tests compare with and the solver of small
-//! full systems.
+//! refactors many times. A dense LU is the oracle that the tests compare with.
 
+#[cfg(test)]
 mod dense;
 mod matrix;
 mod sparse;
 
-pub use dense::DenseLu;
 pub use matrix::Matrix;
 pub use sparse::SparseLu;
 

@@ -376,7 +376,7 @@ impl Elimination {
 
 #[cfg(test)]
 mod tests {
-    use super::super::DenseLu;
+    use super::super::dense::DenseLu;
     use super::*;
 
     /// A small deterministic generator; the numbers only have to differ.
