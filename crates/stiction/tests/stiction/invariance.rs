@@ -1,26 +1,16 @@
 //! Results do not depend on how a dataset says the same thing: order of statements, ids, units.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use results::ResFile;
 
-use crate::run::{run_dynamic, scratch_folder};
+use crate::shared::run_text;
 
 /// Steps of the dynamic blocks of the named component.
 fn series(results: &ResFile, component: &str) -> Vec<f64> {
     results
         .get(component)
         .unwrap_or_else(|error| panic!("{component}: {error}"))
-}
-
-/// Writes a dataset into a folder of its own and runs it.
-fn run_text(text: &str, end: f64, steps: u32, error: f64) -> ResFile {
-    let folder = scratch_folder();
-    let path: PathBuf = folder.join("model.adm");
-    std::fs::write(&path, text).unwrap();
-    let results = run_dynamic(&path, end, steps, Some(error));
-    std::fs::remove_dir_all(folder).unwrap();
-    results
 }
 
 /// The dataset's title, and its statements each with the comments before it. Requests are left
@@ -112,14 +102,14 @@ fn order_of_statements_and_ids_do_not_matter() {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/delta-robot/delta.adm");
     let text = std::fs::read_to_string(example).unwrap();
     let (title, mut statements) = statements(&text);
-    let given = run_text(&joined(title, &statements), 0.4, 40, 1e-8);
+    let given = run_text(&joined(title, &statements), 0.4, 40, Some(1e-8));
     // A step that is prime to any count of statements visits them all in another order.
     let count = statements.len();
     statements = (0..count)
         .map(|k| statements[(k * 7919 + 13) % count].clone())
         .collect();
     let changed = renumbered(&joined(title, &statements));
-    let changed = run_text(&changed, 0.4, 40, 1e-8);
+    let changed = run_text(&changed, 0.4, 40, Some(1e-8));
     let mut worst = 0.0_f64;
     for entity in &given.entities {
         for component in &entity.components {
@@ -177,8 +167,8 @@ END
 
 #[test]
 fn units_of_length_do_not_matter() {
-    let metres = run_text(&pendulum("METER", 1.0), 3.0, 60, 1e-6);
-    let millimetres = run_text(&pendulum("MILLIMETER", 1000.0), 3.0, 60, 1e-6);
+    let metres = run_text(&pendulum("METER", 1.0), 3.0, 60, Some(1e-6));
+    let millimetres = run_text(&pendulum("MILLIMETER", 1000.0), 3.0, 60, Some(1e-6));
     let components = [
         ("PART_2_XFORM.X", 1e3),
         ("PART_2_XFORM.VY", 1e3),

@@ -43,7 +43,7 @@ STOP
 SIMULATE/DYNAMIC, END=99, STEPS=4
 ";
     let project = Project::load(&with_commands("changes", commands)).unwrap();
-    let (report, results) = run(&project, "changes", RunOptions::default());
+    let (report, results) = run(&project, RunOptions::default());
     assert_eq!(report.outcome, Outcome::Completed);
     assert_eq!(
         (report.simulations, report.outputs, report.time),
@@ -105,7 +105,7 @@ fn command_files_call_others_but_not_themselves() {
     let outer = folder.join("outer.acf");
     std::fs::write(&outer, "\nFILE/MODEL=slider\nFILE/COMMAND=inner\n").unwrap();
     let project = Project::load(&outer).unwrap();
-    let (report, _) = run(&project, "called", RunOptions::default());
+    let (report, _) = run(&project, RunOptions::default());
     assert_eq!(
         (report.outcome, report.simulations),
         (Outcome::Completed, 1)
@@ -122,7 +122,7 @@ fn split_runs_agree_with_one() {
                  SIMULATE/DYNAMIC, END=1, STEPS=4\n";
     let last = |name: &str, commands: &str| {
         let project = Project::load(&with_commands(name, commands)).unwrap();
-        let (_, results) = run(&project, name, RunOptions::default());
+        let (_, results) = run(&project, RunOptions::default());
         *results.get("PART_2_XFORM.Z").unwrap().last().unwrap()
     };
     // Exactly 1.5 m; the tolerance is 1e-8 a step.

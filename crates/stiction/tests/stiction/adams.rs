@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use crate::shared::{reference, run};
 use results::ResFile;
-use stiction::{Outcome, Project, RunOptions};
+use stiction::Project;
+
+use crate::shared::{complete, reference, run_dynamic, run_text};
 
 #[test]
 fn free_fall_is_exact() {
@@ -12,8 +13,7 @@ fn free_fall_is_exact() {
         return;
     };
     let project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
-    let (report, results) = run(&project, "free-fall", RunOptions::default());
-    assert_eq!(report.outcome, Outcome::Completed);
+    let results = complete(&project, None);
     let Some(theirs) = reference("adams-results/free-fall/test.res") else {
         return;
     };
@@ -39,7 +39,7 @@ fn free_fall_is_exact() {
 }
 
 /// Well below what is compared, so that the differences are those of Adams and its six digits.
-const TIGHT: RunOptions = RunOptions { error: Some(1e-7) };
+const TIGHT: Option<f64> = Some(1e-7);
 /// Largest difference of positions, m.
 const POSITION: f64 = 1e-3;
 /// Largest difference of reactions, part of their peak.
@@ -117,10 +117,7 @@ fn single_joints_match_adams() {
             return;
         };
         let tables = model.with_extension("");
-        let mut project = Project::load(&model).unwrap_or_else(|error| panic!("{error}"));
-        project.push_dynamic(5.0, Some(500), None);
-        let (report, results) = run(&project, case, TIGHT);
-        assert_eq!(report.outcome, Outcome::Completed, "{case}");
+        let results = run_dynamic(&model, 5.0, 500, TIGHT);
         let position = request(&results, 1, 0).unwrap();
         let (far, _) = compare(&position, &table(&tables.join("Pos.txt")));
         let mut line = format!("{case:<20} position {far:.1e} m");
@@ -151,13 +148,7 @@ fn run_spring(case: &str, changes: &[Change], columns: [&str; 9]) -> Option<[Vec
         assert!(text.contains(from), "{case} has no {from}");
         text = text.replace(from, to);
     }
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let model = folder.join(format!("{case}.adm"));
-    std::fs::write(&model, text).unwrap();
-    let mut project = Project::load(&model).unwrap_or_else(|error| panic!("{error}"));
-    project.push_dynamic(5.0, Some(500), None);
-    let (report, results) = run(&project, case, TIGHT);
-    assert_eq!(report.outcome, Outcome::Completed, "{case}");
+    let results = run_text(&text, 5.0, 500, TIGHT);
     let columns = columns.map(|name| results.get(name).unwrap());
     let rows = |first: usize| -> Vec<[f64; 3]> {
         // The first step is the model as given, all zeros.

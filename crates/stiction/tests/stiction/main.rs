@@ -1,14 +1,19 @@
-//! The whole program against results of real Adams runs and independent references.
+//! The facade and with it the whole program: datasets in, results out, against results of real Adams
+//! runs and independent references.
 #![allow(
     clippy::print_stdout,
     reason = "the figures of the comparisons are what these tests show"
 )]
 
+mod adams;
+mod commands;
 mod corpus;
 mod delta_robot;
+mod examples;
 mod instants;
 mod invariance;
 mod jumps;
+mod lowering;
 mod machines;
-mod run;
+mod shared;
 mod table;

@@ -10,8 +10,7 @@ use crate::shared::run;
 fn example(file: &str) -> (RunReport, ResFile) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let project = Project::load(&folder.join(file)).unwrap_or_else(|error| panic!("{error}"));
-    let name = format!("example-{}", project.prefix());
-    let (report, results) = run(&project, &name, RunOptions::default());
+    let (report, results) = run(&project, RunOptions::default());
     assert_eq!(report.outcome, Outcome::Completed);
     (report, results)
 }

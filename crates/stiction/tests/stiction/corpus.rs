@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::run::shared;
+use crate::shared::reference;
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
@@ -36,7 +36,7 @@ fn subject(message: &str) -> String {
 
 #[test]
 fn every_file_is_checked() {
-    let Some(corpus) = shared("corpus") else {
+    let Some(corpus) = reference("corpus") else {
         return;
     };
     let mut found = Vec::new();

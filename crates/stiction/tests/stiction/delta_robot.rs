@@ -5,7 +5,7 @@
 //! and kept its history across the jumps of the inputs. So the replay is compared with the
 //! converged reference, and the run with ramped inputs with the real results.
 
-use crate::run::{run, shared};
+use crate::shared::{complete, reference};
 use crate::table::{Table, distance, median, norm};
 
 const FOLDER: &str = "adams-results/delta-robot-friction";
@@ -43,17 +43,18 @@ fn differences(
 
 #[test]
 fn replay_converges_to_the_reference() {
-    let Some(reference) = shared(&format!("{FOLDER}/delta_robot_reference.csv")) else {
+    let Some(table) = reference(&format!("{FOLDER}/delta_robot_reference.csv")) else {
         return;
     };
-    let reference = Table::from_csv(&std::fs::read_to_string(reference).unwrap());
-    let Some(commands) = shared(&format!("{FOLDER}/delta_robot_replay.acf")) else {
+    let table = Table::from_csv(&std::fs::read_to_string(table).unwrap());
+    let Some(commands) = reference(&format!("{FOLDER}/delta_robot_replay.acf")) else {
         return;
     };
+    let project = stiction::Project::load(&commands).unwrap();
     let mut last = f64::INFINITY;
     for error in [1e-4, 1e-6, 1e-9] {
-        let ours = Table::from_results(&run(&commands, Some(error), &[]));
-        let [position, velocity] = differences(&ours, &reference, |part| format!("P{part}_"), 1);
+        let ours = Table::from_results(&complete(&project, Some(error)));
+        let [position, velocity] = differences(&ours, &table, |part| format!("P{part}_"), 1);
         println!(
             "replay, error {error:e}: positions {position:.2e} m, velocities {velocity:.2e} of peak"
         );
@@ -69,14 +70,15 @@ fn replay_converges_to_the_reference() {
 
 #[test]
 fn ramped_inputs_give_the_real_results() {
-    let Some(commands) = shared(&format!("{FOLDER}/delta_robot_ramp.acf")) else {
+    let Some(commands) = reference(&format!("{FOLDER}/delta_robot_ramp.acf")) else {
         return;
     };
-    let Some(real) = shared(&format!("{FOLDER}/delta_robot.res")) else {
+    let Some(real) = reference(&format!("{FOLDER}/delta_robot.res")) else {
         return;
     };
+    let project = stiction::Project::load(&commands).unwrap();
     let real = Table::from_results(&results::ResFile::read(real).unwrap());
-    let ours = Table::from_results(&run(&commands, Some(1e-7), &[]));
+    let ours = Table::from_results(&complete(&project, Some(1e-7)));
     let [position, velocity] = differences(&ours, &real, |part| format!("Part/{part}."), 0);
     // Adams' own discretisation error in the ramped run is up to 2.4e-4 m and 0.6 % of the peak.
     println!("ramp against real results: {position:.2e} m, {velocity:.2e} of peak velocity");

@@ -1,0 +1,75 @@
+//! Reference data beside the checkout, and runs of models into temporary folders.
+
+use std::path::{Path, PathBuf};
+
+use results::ResFile;
+use stiction::{Outcome, Progress, Project, RunOptions, RunReport, Session, Watch};
+
+/// Path of a file or folder of the reference folder (`STICTION_SHARED`, else `../shared` beside the
+/// checkout), or `None` with a printed reason.
+pub(crate) fn reference(path: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os("STICTION_SHARED").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")),
+        PathBuf::from,
+    );
+    let file = folder.join(path);
+    if file.exists() {
+        Some(file)
+    } else {
+        println!("skipped: there is no reference file {path}");
+        None
+    }
+}
+
+struct GoOn;
+
+impl Watch for GoOn {
+    fn progress(&mut self, _: &Progress) -> bool {
+        true
+    }
+}
+
+/// A fresh folder of its own for each call of each test process.
+pub(crate) fn scratch_folder() -> PathBuf {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    static NEXT: AtomicUsize = AtomicUsize::new(0);
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    let name = format!("run-{}-{number}", std::process::id());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Runs a project into a throw-away folder; returns the report and the results.
+pub(crate) fn run(project: &Project, options: RunOptions) -> (RunReport, ResFile) {
+    let folder = scratch_folder();
+    let session = Session::new(project).unwrap_or_else(|error| panic!("{error}"));
+    let report = session.run(&folder, options, &mut GoOn).unwrap();
+    let results = ResFile::read(folder.join(format!("{}.res", project.prefix()))).unwrap();
+    std::fs::remove_dir_all(folder).unwrap();
+    (report, results)
+}
+
+/// Runs a project, which must go through.
+pub(crate) fn complete(project: &Project, error: Option<f64>) -> ResFile {
+    let (report, results) = run(project, RunOptions { error });
+    assert_eq!(report.outcome, Outcome::Completed, "{}", project.prefix());
+    results
+}
+
+/// Runs a dataset alone for `end` with `steps` outputs; it must go through.
+pub(crate) fn run_dynamic(model: &Path, end: f64, steps: u32, error: Option<f64>) -> ResFile {
+    let mut project = Project::load(model).unwrap_or_else(|error| panic!("{error}"));
+    project.push_dynamic(end, Some(steps), None);
+    complete(&project, error)
+}
+
+/// Runs a dataset given as text for `end` with `steps` outputs; it must go through.
+pub(crate) fn run_text(text: &str, end: f64, steps: u32, error: Option<f64>) -> ResFile {
+    let folder = scratch_folder();
+    let file = folder.join("model.adm");
+    std::fs::write(&file, text).unwrap();
+    let results = run_dynamic(&file, end, steps, error);
+    std::fs::remove_dir_all(folder).unwrap();
+    results
+}
