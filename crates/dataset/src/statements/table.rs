@@ -46,9 +46,8 @@ const fn single(
     read: fn(&mut Reading, &mut Builder),
 ) -> Rule {
     Rule {
-        name: Name { full, least },
         identified: false,
-        action: Action::Read(Some(keywords), read),
+        ..self::read(full, least, keywords, read)
     }
 }
 
