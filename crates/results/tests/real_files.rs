@@ -1,9 +1,6 @@
 //! Our layouts against files of real Adams runs.
 
-mod shared;
-
 use results::{DataKind, Entity, Header, Layout, ReqWriter, ResFile, ResWriter, UnitNames};
-use shared::reference;
 
 const DELTA_ROBOT: &str = "adams-results/delta-robot-friction/delta_robot.res";
 
@@ -27,7 +24,7 @@ fn real_files_are_read() {
         ),
     ];
     for (path, entities, values, steps) in files {
-        let Some(path) = reference(path) else {
+        let Some(path) = reference_data::path(path) else {
             continue;
         };
         let file = ResFile::read(path).unwrap();
@@ -37,7 +34,7 @@ fn real_files_are_read() {
         assert_eq!(file.entities.len(), entities);
         assert_eq!(file.data[0].row(0).len(), values);
     }
-    if let Some(path) = reference("adams-results/free-fall/test.res") {
+    if let Some(path) = reference_data::path("adams-results/free-fall/test.res") {
         let file = ResFile::read(path).unwrap();
         assert_eq!(
             file.get("PART_2_XFORM.Y").unwrap()[2..4],
@@ -71,7 +68,9 @@ fn ours(real: &Entity, units: &UnitNames) -> Entity {
 
 /// Builds the layout of a real file from names and ids alone and compares names, units and ids.
 fn compare_layout(path: &str, units: &UnitNames) {
-    let Some(path) = reference(path) else { return };
+    let Some(path) = reference_data::path(path) else {
+        return;
+    };
     let mut real = ResFile::read(path).unwrap();
     // Units of variables come from Adams View: a dataset does not have them.
     for entity in &mut real.entities {
@@ -123,7 +122,7 @@ fn layouts_agree_with_real_ones() {
 
 #[test]
 fn request_file_of_a_real_run() {
-    let Some(path) = reference("adams-results/free-fall/test.req") else {
+    let Some(path) = reference_data::path("adams-results/free-fall/test.req") else {
         return;
     };
     let real = std::fs::read_to_string(path).unwrap();
@@ -140,7 +139,7 @@ fn request_file_of_a_real_run() {
 
 #[test]
 fn a_real_file_survives_rewriting() {
-    let Some(path) = reference(DELTA_ROBOT) else {
+    let Some(path) = reference_data::path(DELTA_ROBOT) else {
         return;
     };
     let real = ResFile::read(path).unwrap();

@@ -3,7 +3,7 @@
 //! `cargo bench -p stiction --bench delta_robot`; the reference data are needed.
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 struct Unwatched;
@@ -22,15 +22,10 @@ fn peak_memory() -> Option<f64> {
 }
 
 fn main() {
-    let shared = std::env::var_os("STICTION_SHARED").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"),
-        PathBuf::from,
-    );
-    let model = shared.join("adams-results/delta-robot-friction/delta_robot_replay.acf");
-    if !model.exists() {
-        println!("skipped: {} is not here", model.display());
+    let file = "adams-results/delta-robot-friction/delta_robot_replay.acf";
+    let Some(model) = reference_data::path(file) else {
         return;
-    }
+    };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("delta-robot-bench");
     std::fs::create_dir_all(&folder).expect("a folder for the results");
     println!("error     median   min      max      steps  rejected  residuals  factorisations");

@@ -1,6 +1,6 @@
 //! Real files: which of them are read without error, and what the others need.
 
-use crate::shared::{models, shared};
+use crate::shared::models;
 use dataset::{Code, Diagnostic, Severity, Source, read_commands, read_dataset};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,7 +22,7 @@ fn is_error(diagnostic: &Diagnostic) -> bool {
 
 #[test]
 fn the_models_with_results_of_adams_read_without_error() {
-    let Some(folder) = shared("adams-results") else {
+    let Some(folder) = reference_data::path("adams-results") else {
         return;
     };
     let mut failed = Vec::new();
@@ -58,7 +58,7 @@ const NOT_IN_THE_LANGUAGE: &[(&str, &str)] = &[
 
 #[test]
 fn the_corpus_is_read_and_what_is_missing_is_listed() {
-    let Some(folder) = shared("corpus") else {
+    let Some(folder) = reference_data::path("corpus") else {
         return;
     };
     let mut without_error = 0;

@@ -3,7 +3,7 @@
 //! The environment variable `STICTION_FUZZ_MUTATIONS` sets the number of damaged texts. They are
 //! made by a generator with a fixed seed, so that a failure comes again.
 
-use crate::shared::{models, shared};
+use crate::shared::models;
 use dataset::{
     Diagnostic, Language, Source, SyntaxTree, parse_change, read_commands, read_dataset,
 };
@@ -94,7 +94,7 @@ fn originals() -> Vec<Vec<u8>> {
         .iter()
         .map(|text| text.as_bytes().to_vec())
         .collect();
-    let folders = ["corpus", "adams-results"].map(shared);
+    let folders = ["corpus", "adams-results"].map(reference_data::path);
     for path in folders
         .into_iter()
         .flatten()
@@ -204,7 +204,7 @@ fn assert_round_trip(source: &Source, language: Language) {
 
 #[test]
 fn tokens_give_every_file_back() {
-    let folders = ["corpus", "adams-results"].map(shared);
+    let folders = ["corpus", "adams-results"].map(reference_data::path);
     let mut count = 0;
     for path in folders
         .into_iter()

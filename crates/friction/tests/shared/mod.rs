@@ -1,27 +1,15 @@
-//! Reference data beside the checkout, and what several tests need.
+//! What several tests need.
 #![allow(
     dead_code,
     reason = "each test binary uses its own part of this module"
 )]
-#![allow(clippy::print_stdout, reason = "a skipped test says why")]
 
 use friction::{Effect, Original};
-use std::path::PathBuf;
 
-/// The text of a file of the reference folder (`STICTION_SHARED`, else `../shared` beside the
-/// checkout), or `None` with a printed reason.
+/// The text of a file of the reference data, or `None` with a printed reason.
 pub(crate) fn reference(path: &str) -> Option<String> {
-    let folder = std::env::var_os("STICTION_SHARED").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")),
-        PathBuf::from,
-    );
-    match std::fs::read_to_string(folder.join(path)) {
-        Ok(text) => Some(text),
-        Err(error) => {
-            println!("skipped: reference file {path} cannot be read ({error})");
-            None
-        }
-    }
+    let file = reference_data::path(path)?;
+    Some(std::fs::read_to_string(file).expect("reference files are text"))
 }
 
 /// Parameters used by most tests.

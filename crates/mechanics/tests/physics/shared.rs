@@ -1,23 +1,12 @@
-//! Reference data beside the checkout.
-
-use std::path::PathBuf;
+//! Numbers of the reference data.
 
 use serde_json::Value;
 
-/// A JSON file of the reference folder (`STICTION_SHARED`, else `../shared` beside the checkout),
-/// or `None` with a printed reason.
+/// A JSON file of the reference data, or `None` with a printed reason.
 pub(crate) fn reference(path: &str) -> Option<Value> {
-    let folder = std::env::var_os("STICTION_SHARED").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")),
-        PathBuf::from,
-    );
-    match std::fs::read_to_string(folder.join(path)) {
-        Ok(text) => Some(serde_json::from_str(&text).expect("reference files are JSON")),
-        Err(error) => {
-            println!("skipped: reference file {path} cannot be read ({error})");
-            None
-        }
-    }
+    let file = reference_data::path(path)?;
+    let text = std::fs::read_to_string(file).expect("reference files are text");
+    Some(serde_json::from_str(&text).expect("reference files are JSON"))
 }
 
 /// A number of a reference file, given by its JSON pointer.

@@ -5,16 +5,16 @@ use std::path::Path;
 use results::ResFile;
 use stiction::Project;
 
-use crate::shared::{complete, reference, run_dynamic, run_text};
+use crate::shared::{complete, run_dynamic, run_text};
 
 #[test]
 fn free_fall_is_exact() {
-    let Some(file) = reference("adams-results/free-fall/test.acf") else {
+    let Some(file) = reference_data::path("adams-results/free-fall/test.acf") else {
         return;
     };
     let project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
     let results = complete(&project, None);
-    let Some(theirs) = reference("adams-results/free-fall/test.res") else {
+    let Some(theirs) = reference_data::path("adams-results/free-fall/test.res") else {
         return;
     };
     let theirs = ResFile::read(theirs).unwrap();
@@ -113,7 +113,7 @@ fn single_joints_match_adams() {
     let mut failures = Vec::new();
     for case in cases {
         let folder = "adams-results/single-joint";
-        let Some(model) = reference(&format!("{folder}/{case}.adm")) else {
+        let Some(model) = reference_data::path(&format!("{folder}/{case}.adm")) else {
             return;
         };
         let tables = model.with_extension("");
@@ -142,7 +142,7 @@ type Change = (&'static str, &'static str);
 
 /// A model of one spring, changed to what its tables are of, run; rows of three components each.
 fn run_spring(case: &str, changes: &[Change], columns: [&str; 9]) -> Option<[Vec<[f64; 3]>; 3]> {
-    let file = reference(&format!("adams-results/single-joint/{case}.adm"))?;
+    let file = reference_data::path(&format!("adams-results/single-joint/{case}.adm"))?;
     let mut text = String::from_utf8_lossy(&std::fs::read(file).unwrap()).into_owned();
     for (from, to) in changes {
         assert!(text.contains(from), "{case} has no {from}");
@@ -209,7 +209,8 @@ fn springs_match_adams() {
         };
         let mut line = format!("{case:<20}");
         for (ours, name) in ours.iter().zip(["Pos", "Rforce", "Rtorque"]) {
-            let Some(file) = reference(&format!("adams-results/single-joint/{case}/{name}.txt"))
+            let Some(file) =
+                reference_data::path(&format!("adams-results/single-joint/{case}/{name}.txt"))
             else {
                 return;
             };

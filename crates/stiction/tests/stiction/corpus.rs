@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::shared::reference;
-
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
         .unwrap()
@@ -36,7 +34,7 @@ fn subject(message: &str) -> String {
 
 #[test]
 fn every_file_is_checked() {
-    let Some(corpus) = reference("corpus") else {
+    let Some(corpus) = reference_data::path("corpus") else {
         return;
     };
     let mut found = Vec::new();

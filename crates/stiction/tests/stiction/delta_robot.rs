@@ -5,7 +5,7 @@
 //! and kept its history across the jumps of the inputs. So the replay is compared with the
 //! converged reference, and the run with ramped inputs with the real results.
 
-use crate::shared::{complete, reference};
+use crate::shared::complete;
 use crate::table::{Table, distance, median, norm};
 
 const FOLDER: &str = "adams-results/delta-robot-friction";
@@ -43,11 +43,11 @@ fn differences(
 
 #[test]
 fn replay_converges_to_the_reference() {
-    let Some(table) = reference(&format!("{FOLDER}/delta_robot_reference.csv")) else {
+    let Some(table) = reference_data::path(&format!("{FOLDER}/delta_robot_reference.csv")) else {
         return;
     };
     let table = Table::from_csv(&std::fs::read_to_string(table).unwrap());
-    let Some(commands) = reference(&format!("{FOLDER}/delta_robot_replay.acf")) else {
+    let Some(commands) = reference_data::path(&format!("{FOLDER}/delta_robot_replay.acf")) else {
         return;
     };
     let project = stiction::Project::load(&commands).unwrap();
@@ -70,10 +70,10 @@ fn replay_converges_to_the_reference() {
 
 #[test]
 fn ramped_inputs_give_the_real_results() {
-    let Some(commands) = reference(&format!("{FOLDER}/delta_robot_ramp.acf")) else {
+    let Some(commands) = reference_data::path(&format!("{FOLDER}/delta_robot_ramp.acf")) else {
         return;
     };
-    let Some(real) = reference(&format!("{FOLDER}/delta_robot.res")) else {
+    let Some(real) = reference_data::path(&format!("{FOLDER}/delta_robot.res")) else {
         return;
     };
     let project = stiction::Project::load(&commands).unwrap();

@@ -10,7 +10,6 @@ use mechanics::state::State;
 use mechanics::{Owner, Simulation};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::shared::reference;
 use crate::table::Table;
 
 const FOLDER: &str = "adams-results/delta-robot-friction";
@@ -111,9 +110,9 @@ fn compare(simulation: &Simulation, real: &Table, row: usize) -> Differences {
 
 /// Worst differences over all rows after the start-up of the real run.
 fn worst(changes: &[String]) -> Option<Differences> {
-    let dataset = reference(&format!("{FOLDER}/delta_robot.adm"))?;
-    let commands = reference(&format!("{FOLDER}/delta_robot_replay.acf"))?;
-    let real = reference(&format!("{FOLDER}/delta_robot.res"))?;
+    let dataset = reference_data::path(&format!("{FOLDER}/delta_robot.adm"))?;
+    let commands = reference_data::path(&format!("{FOLDER}/delta_robot_replay.acf"))?;
+    let real = reference_data::path(&format!("{FOLDER}/delta_robot.res"))?;
     let real = Table::from_results(&results::ResFile::read(real).unwrap());
     let inputs = inputs(&std::fs::read_to_string(commands).unwrap());
     let mut project = stiction::Project::load(&dataset).unwrap();

@@ -1,12 +1,12 @@
 //! Machines without friction against real Adams results: positions, reactions and measures.
 
-use crate::shared::{reference, run_dynamic};
+use crate::shared::run_dynamic;
 use crate::table::{Table, distance, norm};
 
 /// Largest difference of the positions of the parts, and of joint reactions relative to their peak.
 fn compare(name: &str, parts: &[u32], joints: &[u32], error: f64) -> Option<[f64; 2]> {
-    let dataset = reference(&format!("adams-results/{name}.adm"))?;
-    let real = reference(&format!("adams-results/{name}.res"))?;
+    let dataset = reference_data::path(&format!("adams-results/{name}.adm"))?;
+    let real = reference_data::path(&format!("adams-results/{name}.res"))?;
     let real = Table::from_results(&results::ResFile::read(real).unwrap());
     let end = *real.times.last().unwrap();
     let steps = u32::try_from(real.times.len()).unwrap();

@@ -1,25 +1,9 @@
-//! Reference data beside the checkout, and runs of models into temporary folders.
+//! Runs of models into temporary folders.
 
 use std::path::{Path, PathBuf};
 
 use results::ResFile;
 use stiction::{Outcome, Progress, Project, RunOptions, RunReport, Session, Watch};
-
-/// Path of a file or folder of the reference folder (`STICTION_SHARED`, else `../shared` beside the
-/// checkout), or `None` with a printed reason.
-pub(crate) fn reference(path: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("STICTION_SHARED").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")),
-        PathBuf::from,
-    );
-    let file = folder.join(path);
-    if file.exists() {
-        Some(file)
-    } else {
-        println!("skipped: there is no reference file {path}");
-        None
-    }
-}
 
 struct GoOn;
 
