@@ -6,7 +6,8 @@
 //! |---|---|---|---|
 //! | parameters | [`parameters`] | the arguments of a `FRICTION` statement | keyword, default, range, unit |
 //! | regime and coefficient | [`original`] | surface velocity `V`, creep `D` | vector coefficient `mu(V, D)` |
-//! | effective load | [`joint`] | reaction force and moment of the joint | `N`, `Teff` or `Rb*|F|` |
+//! | bristles | [`lugre`] | `V`, bristle deflection `z`, load | vector force at the surface |
+//! | effective load | [`joint`] | reaction force and moment of the joint | `N`, `Teff` or `Rb*\|F\|` |
 //! | resultant | [`resultant`](mod@resultant) | coefficient, load, preload, limit | force or torque on the I part |
 //!
 //! Everything is a plain function of its arguments: no state, no allocation, no panics on finite
@@ -18,12 +19,6 @@
 //! the surfaces in contact (length/time, also for rotations: arm times angular rate). Forces and
 //! torques act on the **I** part; the J part receives the opposite. The coefficient already
 //! opposes the motion, so that force = load * coefficient without a further sign.
-//!
-//! # Where the next formulation or joint goes
-//! * `FORMULATION=LUGRE`: a file `lugre.rs` beside `original.rs` that yields a [`Coefficient`] and
-//!   the rate of its bristle deflection.
-//! * Cylindrical, hooke and universal joints: one file each in `joint/`, yielding a
-//!   [`Load`]. The coefficient already works for any dimension (2 for cylindrical).
 //!
 //! # Example
 //! ```
@@ -45,12 +40,16 @@ extern crate std;
 compile_error!("enable one of the features `std` (default) and `libm` for the square root");
 
 pub mod joint;
+pub mod lugre;
 pub mod original;
 pub mod parameters;
 pub mod resultant;
 pub mod step;
 mod vector;
 
-pub use joint::{Inputs, Load, RevoluteLoad, SphericalLoad, TranslationalLoad};
+pub use joint::{CylindricalLoad, Inputs, Load, RevoluteLoad, SphericalLoad, TranslationalLoad};
+pub use lugre::{Bristles, LuGre};
 pub use original::{Coefficient, Effect, Original, Regime};
-pub use resultant::{Resultant, resultant};
+pub use resultant::{
+    Resultant, bristle_resultant, cylindrical_bristle_resultant, cylindrical_resultant, resultant,
+};

@@ -10,6 +10,27 @@ fn square_root(x: f64) -> f64 {
     libm::sqrt(x)
 }
 
+#[cfg(feature = "std")]
+pub(crate) fn natural_exp(x: f64) -> f64 {
+    x.exp()
+}
+
+#[cfg(not(feature = "std"))]
+pub(crate) fn natural_exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// `x^exponent` for `x >= 0`.
+pub(crate) fn power(x: f64, exponent: f64) -> f64 {
+    if exponent == 2.0 {
+        return x * x;
+    }
+    #[cfg(feature = "std")]
+    return x.powf(exponent);
+    #[cfg(not(feature = "std"))]
+    return libm::pow(x, exponent);
+}
+
 /// Euclidean length, scaled by the largest component so that squares neither overflow nor vanish.
 pub(crate) fn length<const N: usize>(x: &[f64; N]) -> f64 {
     let largest = x.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
@@ -29,7 +50,7 @@ pub(crate) fn length_and_direction<const N: usize>(x: &[f64; N]) -> (f64, [f64; 
     }
 }
 
-/// `a * x * y^T + b * (I - y * y^T)`-style matrices are assembled from this: one entry at a time.
+/// Matrix from its entries by row and column.
 pub(crate) fn matrix<const N: usize>(entry: impl Fn(usize, usize) -> f64) -> [[f64; N]; N] {
     core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
 }

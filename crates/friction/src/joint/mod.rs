@@ -5,20 +5,25 @@
 //! excluded): force and moment on the I part at the origin of the I marker, components along the
 //! axes of the J marker, z being the axis of the joint.
 //!
+//! A hooke or universal joint has the load of a [revolute](RevoluteLoad) one on each of its two pins,
+//! with the reaction along axes whose z is the pin.
+//!
 //! A magnitude is not differentiable where it vanishes; there its derivative is taken as zero.
 
+mod cylindrical;
 mod revolute;
 mod spherical;
 mod translational;
 
+pub use cylindrical::CylindricalLoad;
 pub use revolute::RevoluteLoad;
 pub use spherical::SphericalLoad;
 pub use translational::TranslationalLoad;
 
 /// The switches of `INPUTS`: which loads cause friction.
 ///
-/// A joint type uses the switches available to it: all four for translational, all but the
-/// torsional moment for revolute, preload and reaction force for spherical joints.
+/// A joint type uses the switches available to it: all four for translational joints, preload and
+/// reaction force for spherical ones, all but the torsional moment for the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Inputs {
     /// `PRELOAD` (for the caller: it enters [`resultant`](crate::resultant()), not the load).
@@ -50,7 +55,7 @@ impl Inputs {
 
 /// Effective load of a joint with its derivatives.
 ///
-/// Unit: force for translational joints, torque for revolute and spherical ones.
+/// Unit: force for translational and cylindrical joints, torque for the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// The load, never negative: the sum of the three contributions below.
@@ -59,7 +64,7 @@ pub struct Load {
     pub by_force: [f64; 3],
     /// Derivative by the reaction moment.
     pub by_moment: [f64; 3],
-    /// Derivative by the displacement since assembly (translational joints, else zero).
+    /// Derivative by the displacement since assembly (translational and cylindrical joints, else zero).
     pub by_displacement: f64,
     /// Contribution of the reaction force.
     pub from_reaction: f64,
@@ -68,6 +73,6 @@ pub struct Load {
     /// Contribution of the torsional moment.
     pub from_torsion: f64,
     /// The overlap has shrunk to its lower limit and the load is no longer physical: worth one
-    /// warning (translational joints, else false).
+    /// warning (translational and cylindrical joints, else false).
     pub overlap_exhausted: bool,
 }
