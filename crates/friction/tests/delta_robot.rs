@@ -1,15 +1,12 @@
 //! The law against a real run of Adams Solver C++ 2015.1: twelve frictions on spherical joints,
 //! 200 output points, 17 digits.
-#![allow(
-    clippy::print_stdout,
-    reason = "the largest errors are what this test shows"
-)]
-
 mod shared;
 
+use friction::parameters::JointType;
 use friction::{Effect, Inputs, Original, Regime, SphericalLoad, resultant};
 use shared::{norm, reference};
 use std::collections::HashMap;
+use verification::{Case, Coverage, Formulation, Section, check};
 
 type Rotation = [[f64; 3]; 3];
 /// Position in a row by entity type, object id and component name.
@@ -185,6 +182,24 @@ impl Run {
 
 const FRICTIONS: std::ops::RangeInclusive<u32> = 1..=12;
 const TORQUE: [&str; 3] = ["TX", "TY", "TZ"];
+const CASE: Case<'_> = Case {
+    section: Section::Law,
+    id: "RD3",
+    model: "the law on the states of a delta robot with twelve spherical frictions, 2400 samples, 30 stuck",
+    source: "a run of Adams Solver C++ 2015.1, 17 digits",
+    covers: &[Coverage {
+        joint: JointType::Spherical,
+        formulation: Formulation::Original,
+        arguments: &[
+            "MU_STATIC",
+            "MU_DYNAMIC",
+            "STICTION_TRANSITION_VELOCITY",
+            "TRANSITION_VELOCITY_COEFFICIENT",
+            "MAX_STICTION_DEFORMATION",
+            "BALL_RADIUS",
+        ],
+    }],
+};
 const CREEP: [&str; 3] = ["CREEP_AX", "CREEP_AY", "CREEP_AZ"];
 
 #[test]
@@ -220,13 +235,18 @@ fn coefficients_and_torques_of_a_real_run() {
             samples += 1;
         }
     }
-    println!("{samples} samples, {stuck} stuck; largest relative errors:");
-    println!(
-        "  MUR {worst_mu:.2e}  MU1 {worst_mu1:.2e}  BETA {worst_beta:.2e}  |T| {worst_torque:.2e}"
-    );
     assert_eq!((samples, stuck), (2400, 30));
-    assert!(worst_mu < 1e-12 && worst_mu1 < 1e-12 && worst_beta < 1e-12);
-    assert!(worst_torque < 1e-10);
+    check(&[
+        CASE.worst("MUR, relative", worst_mu, 1e-12, "rounding, observed 2e-15"),
+        CASE.worst("MU1, relative", worst_mu1, 1e-12, "rounding"),
+        CASE.worst("BETA, relative", worst_beta, 1e-12, "rounding"),
+        CASE.worst(
+            "size of the torque, relative",
+            worst_torque,
+            1e-10,
+            "rounding of a difference",
+        ),
+    ]);
 }
 
 /// The torque as a vector in J axes, from the motion of the parts alone: the law evaluated in the
@@ -259,8 +279,10 @@ fn torque_vectors_of_a_real_run() {
             }
         }
     }
-    println!("torque vectors, largest relative error: {moving:.2e} moving, {sticking:.2e} stuck");
-    // The dataset gives the angles of the markers with ten digits, so the J axes are known to
-    // 1e-9; the axes of the I marker now would be wrong by up to 6e-4, the creep angle.
-    assert!(moving < 1e-9 && sticking < 1e-9);
+    let why = "the dataset gives the angles of the markers with ten digits; the axes of the I marker \
+               now would be wrong by up to 6e-4, the creep angle";
+    check(&[
+        CASE.worst("torque vector moving, relative", moving, 1e-9, why),
+        CASE.worst("torque vector stuck, relative", sticking, 1e-9, why),
+    ]);
 }

@@ -2,9 +2,10 @@
 
 mod shared;
 
-use friction::step::{odd_step, step5};
+use friction::step::odd_step;
 use friction::{Effect, Original, Regime};
-use shared::{Random, dot, law, norm, reference};
+use shared::{Random, dot, law, norm, of_the_law};
+use verification::check;
 
 /// The real Adams model behind the vectors: all defaults in metres.
 const ADAMS: Original = Original {
@@ -23,62 +24,96 @@ fn close(actual: f64, expected: f64, relative: f64) {
     );
 }
 
+/// Largest relative error.
+fn worst(pairs: &[(f64, f64)]) -> f64 {
+    let errors = pairs
+        .iter()
+        .map(|(ours, exact)| ((ours - exact) / exact).abs());
+    errors.fold(0.0, |m, e| if e > m || e.is_nan() { e } else { m })
+}
+
 #[test]
 fn real_adams_vectors() {
-    // The inputs were printed with 7 digits; mu is at most 8 times as sensitive (relatively).
-    let digits = 2e-6;
-    close(
-        ADAMS.evaluate(&[0.05568446], &[0.0]).beta,
-        0.84833059,
-        digits,
+    let case = of_the_law(
+        "9.1",
+        "the original law, μs 1e-3, μd 5e-4, Vs 0.1, c 1.5, Dm 0.01",
+        "a run of Adams Solver C++ 2015.1, samples of the specification 1.6",
     );
+    let digits = "the inputs have 7 digits; μ is up to 8 times as sensitive (relatively)";
     let stuck = ADAMS.evaluate(&[0.03374113], &[9.495873e-5]);
-    close(stuck.beta, 0.58626987, digits);
-    close(stuck.mu1, 1.780369e-5, digits);
-    let stuck = ADAMS.evaluate(&[0.06658201], &[3.582297e-4]);
-    close(stuck.beta, 0.92852143, digits);
-    close(stuck.mu1, 6.711063e-5, digits);
-    // V and D are only nearly parallel in the sample: 2e-4 below the sum of their magnitudes.
-    close(-stuck.mu[0], 9.33130743e-4, 3e-4);
+    let faster = ADAMS.evaluate(&[0.06658201], &[3.582297e-4]);
     let resting = ADAMS.evaluate(&[0.0], &[1.998308e-9]);
-    close(resting.mu1, 3.746828e-10, digits);
     assert_eq!(resting.beta, 0.0);
-    for (v, mu) in [
+    let transition = [
         (0.1013044, 9.99914657e-4),
         (0.1278806, 6.96464200e-4),
         (0.1410852, 5.21301202e-4),
-    ] {
+    ]
+    .map(|(v, mu)| {
         let transition = ADAMS.evaluate(&[v], &[0.0]);
-        close(-transition.mu[0], mu, digits);
         assert_eq!(transition.regime, Regime::Transition);
-    }
-    assert_eq!(ADAMS.evaluate(&[0.1500001], &[0.0]).mu, [-5e-4]);
+        (-transition.mu[0], mu)
+    });
+    let sliding = -ADAMS.evaluate(&[0.1500001], &[0.0]).mu[0];
+    check(&[
+        case.worst(
+            "β and μ1 while stuck, relative",
+            worst(&[
+                (ADAMS.evaluate(&[0.05568446], &[0.0]).beta, 0.84833059),
+                (stuck.beta, 0.58626987),
+                (stuck.mu1, 1.780369e-5),
+                (faster.beta, 0.92852143),
+                (faster.mu1, 6.711063e-5),
+                (resting.mu1, 3.746828e-10),
+            ]),
+            2e-6,
+            digits,
+        ),
+        case.worst(
+            "|μ| while stuck, relative",
+            worst(&[(-faster.mu[0], 9.33130743e-4)]),
+            3e-4,
+            "V and D of the sample are only nearly parallel: 2e-4 below the sum of their magnitudes",
+        ),
+        case.worst("|μ| in transition, relative", worst(&transition), 2e-6, digits),
+        case.values("|μ| sliding", &[sliding], &[5e-4], 0.0, "exact"),
+    ]);
 }
 
 #[test]
 fn curve() {
-    // Exact decimal values of the polynomials: rounding only.
-    let rounding = 4e-15;
+    let case = of_the_law(
+        "9.2",
+        "the original law, μs 0.3, μd 0.2, Vs 0.1, c 1.5, Dm 0.01",
+        "decimal values of the polynomials",
+    );
     let law = law(Effect::All);
-    close(law.evaluate(&[0.05], &[0.0]).beta, 0.79296875, rounding);
-    for (v, mu) in [
+    let mut mu = vec![(law.evaluate(&[0.05], &[0.0]).beta, 0.79296875)];
+    for (v, exact) in [
         (0.05, 0.237890625),
         (0.09, 0.299305125),
         (0.11, 0.294208),
         (0.125, 0.25),
         (0.14, 0.205792),
     ] {
-        close(-law.evaluate(&[v], &[0.0]).mu[0], mu, rounding);
-        // mu1 below is printed with 9 digits
-        close(law.evaluate(&[-v], &[0.0]).mu[0], mu, rounding);
+        mu.push((-law.evaluate(&[v], &[0.0]).mu[0], exact));
+        mu.push((law.evaluate(&[-v], &[0.0]).mu[0], exact));
     }
-    for (creep, mu1) in [
+    let creep = [
         (0.0025, 0.134875488),
         (0.005, 0.237890625),
         (0.0075, 0.290368652),
-    ] {
-        close(law.evaluate(&[0.0], &[creep]).mu1, mu1, 5e-9);
-    }
+    ]
+    .map(|(creep, mu1)| (law.evaluate(&[0.0], &[creep]).mu1, mu1));
+    check(&[
+        case.worst("β and μ by speed, relative", worst(&mu), 4e-15, "rounding"),
+        case.worst(
+            "μ1 by creep, relative",
+            worst(&creep),
+            5e-9,
+            "nine digits are given",
+        ),
+    ]);
 }
 
 #[test]
@@ -98,94 +133,6 @@ fn effects() {
     assert_eq!((c.beta, c.mu1, c.regime), (1.0, 0.0, Regime::Sliding));
     assert_eq!(sliding.evaluate(&[0.1], &[0.0]).mu, [-0.2]);
     assert_eq!(sliding.settle(&[0.0], [0.005]), [0.0]);
-}
-
-/// Numbers of a comma-separated table after its header line.
-fn table(text: &str) -> Vec<Vec<f64>> {
-    let rows: Vec<Vec<f64>> = text
-        .lines()
-        .skip(1)
-        .map(|line| {
-            line.split(',')
-                .map(|cell| cell.trim().parse().unwrap())
-                .collect()
-        })
-        .collect();
-    assert!(rows.len() > 10);
-    rows
-}
-
-#[test]
-fn quintic_table_a01() {
-    let Some(text) = reference("validation/data/A01_step5.csv") else {
-        return;
-    };
-    for row in table(&text) {
-        assert!(
-            (step5(row[0], 0.0, 0.0, 1.0, 1.0).value - row[1]).abs() < 1e-15,
-            "{row:?}"
-        );
-    }
-}
-
-#[test]
-fn coefficient_tables_a02() {
-    let Some(text) = reference("validation/data/A02_mu_original.json") else {
-        return;
-    };
-    let data: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let mut compared = 0;
-    for set in data["sets"].as_object().unwrap().values() {
-        let number = |key: &str| set[key].as_f64().unwrap();
-        let law = Original {
-            mu_static: number("mu_static"),
-            mu_dynamic: number("mu_dynamic"),
-            transition_velocity: number("vt"),
-            transition_coefficient: number("c"),
-            max_deformation: 0.01,
-            effect: Effect::All,
-        };
-        let speeds = set["v"].as_array().unwrap();
-        for (v, mu) in speeds
-            .iter()
-            .zip(set["mu_quintic_ADAMS"].as_array().unwrap())
-        {
-            close(
-                -law.evaluate(&[v.as_f64().unwrap()], &[0.0]).mu[0],
-                mu.as_f64().unwrap(),
-                1e-12,
-            );
-            compared += 1;
-        }
-    }
-    for row in data["stiction_table_mu_s0.3_vs0.1_dmax0.01"]
-        .as_array()
-        .unwrap()
-    {
-        let number = |key: &str| row[key].as_f64().unwrap();
-        let c = law(Effect::All).evaluate(&[number("v")], &[number("creep")]);
-        // Absolute: the signed sum of two terms of 0.3 may cancel.
-        assert!((-c.mu[0] - number("mu_signed")).abs() < 1e-15, "{row}");
-        close(c.beta, number("beta"), 1e-14);
-        close(c.mu1, number("mu1"), 1e-14);
-        compared += 1;
-    }
-    assert_eq!(compared, 119);
-}
-
-#[test]
-fn coefficient_table_a12() {
-    let Some(text) = reference("validation/data/A12_mu_table.csv") else {
-        return;
-    };
-    let law = Original {
-        mu_dynamic: 0.25,
-        ..law(Effect::All)
-    };
-    for row in table(&text) {
-        let c = law.evaluate(&[row[0]], &[row[1]]);
-        assert!((-c.mu[0] - row[2]).abs() < 1e-15, "{row:?}: {:?}", c.mu);
-    }
 }
 
 /// A block of unit mass placed at rest on an incline: position at the given times, by Runge-Kutta
@@ -223,28 +170,48 @@ fn block_on_incline(degrees: f64, times: &[f64]) -> Vec<f64> {
 
 #[test]
 fn block_comes_to_rest_and_does_not_drift() {
-    // Five digits of the reference are printed for the middle times, eight for the others.
+    let case = of_the_law(
+        "9.4 law",
+        "a block at rest on a slope, μs 0.3, Vs 0.1, Dm 0.01, the law alone in Runge–Kutta steps of 0.1 ms",
+        "specification 9.4",
+    );
     let x = block_on_incline(10.0, &[0.1, 0.2, 0.5, 1.0, 3.0]);
-    for (x, expected) in x.iter().zip([
+    let exact = [
         2.2637078e-3,
         3.5339204e-3,
         3.4402149e-3,
         3.3883e-3,
         3.3842188e-3,
-    ]) {
-        close(*x, expected, 1e-5);
-    }
+    ];
+    let digits = "five digits are given";
+    let mut claims = vec![case.values("x(0.1 .. 3) at 10° [m]", &x, &exact, 3e-8, digits)];
     // Equilibrium creep of the closed form, then no motion at all.
-    for (degrees, creep) in [(5.0, 1.5815279e-3), (15.0, 6.1199337e-3)] {
+    for (degrees, quantity, creep) in [
+        (5.0, "x(20) at 5° [m]", 1.5815279e-3),
+        (15.0, "x(20) at 15° [m]", 6.1199337e-3),
+    ] {
         let x = block_on_incline(degrees, &[20.0, 40.0]);
-        close(x[0], creep, 1e-7);
+        claims.push(case.values(quantity, &x[..1], &[creep], 5e-11, "eight digits are given"));
         close(x[1], x[0], 1e-12);
     }
+    check(&claims);
 }
 
 #[test]
 fn block_slips_down_a_steep_incline() {
-    close(block_on_incline(20.0, &[1.0])[0], 0.68143702, 1e-6);
+    let case = of_the_law(
+        "9.5 law",
+        "a block from rest on 20°, μs 0.3, μd 0.2, Vs 0.1, Dm 0.01, the law alone",
+        "specification 9.5",
+    );
+    let x = block_on_incline(20.0, &[1.0]);
+    check(&[case.values(
+        "x(1) [m]",
+        &x,
+        &[0.68143702],
+        1e-7,
+        "creep is settled every 0.1 ms",
+    )]);
 }
 
 #[test]

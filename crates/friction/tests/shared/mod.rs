@@ -5,11 +5,23 @@
 )]
 
 use friction::{Effect, Original};
+use verification::{Case, Section};
 
 /// The text of a file of the reference data, or `None` with a printed reason.
 pub(crate) fn reference(path: &str) -> Option<String> {
     let file = reference_data::path(path)?;
     Some(std::fs::read_to_string(file).expect("reference files are text"))
+}
+
+/// A case of the law by itself, which is part of no joint.
+pub(crate) fn of_the_law<'a>(id: &'a str, model: &'a str, source: &'a str) -> Case<'a> {
+    Case {
+        section: Section::Law,
+        id,
+        model,
+        source,
+        covers: &[],
+    }
 }
 
 /// Parameters used by most tests.
