@@ -1,15 +1,17 @@
 //! Commands that change the model, and what they do to a [`Dataset`].
 
 pub(crate) use crate::statements::{
-    FRICTION_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS, SFORCE_KEYWORDS,
+    EQUILIBRIUM_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS, SFORCE_KEYWORDS,
     VARIABLE_KEYWORDS,
 };
 
 use crate::checks;
 use crate::commands::read_command;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::keywords::{Keyword, Kind, keyword};
 use crate::model::{
-    Change, ChangeKind, CommandKind, Dataset, Friction, FrictionArguments, Integrator,
+    Activity, Change, ChangeKind, CommandKind, Dataset, Equilibrium, Friction, FrictionArguments,
+    Integrator,
 };
 use crate::reading::Reading;
 use crate::source::{Source, Span};
@@ -33,7 +35,15 @@ pub fn parse_change(source: &Source) -> (Option<Change>, Vec<Diagnostic>) {
     if let [statement] = tree.statements.as_slice() {
         let command = read_command(&tree, statement, &mut Vec::new(), &mut diagnostics);
         match command.map(|command| command.kind) {
-            Some(CommandKind::Change(found)) => change = Some(*found),
+            Some(CommandKind::Change(found)) => {
+                if matches!(found.kind, ChangeKind::Friction { list: true, .. }) {
+                    let message = "LIST writes to the message file of a run";
+                    diagnostics
+                        .error(Code::InvalidChange, found.span, message)
+                        .help("use it in a command file");
+                }
+                change = Some(*found);
+            }
             Some(_) => {
                 let span = tree.span(statement);
                 let message = "this command does not change the model";
@@ -50,7 +60,7 @@ pub fn parse_change(source: &Source) -> (Option<Change>, Vec<Diagnostic>) {
     (change, diagnostics.finish())
 }
 
-fn change(reading: &Reading, kind: ChangeKind) -> CommandKind {
+pub(crate) fn change(reading: &Reading, kind: ChangeKind) -> CommandKind {
     CommandKind::Change(Box::new(Change {
         kind,
         source: reading.diagnostics.source.name().to_string(),
@@ -135,6 +145,17 @@ pub(crate) fn motion(reading: &mut Reading) -> Option<CommandKind> {
     Some(change(reading, kind))
 }
 
+/// The arguments of FRICTION as a command: those of the statement and LIST.
+pub(crate) const FRICTION_KEYWORDS: [Keyword; statements::FRICTION_KEYWORDS.len() + 1] = {
+    let mut keywords = [keyword("LIST", Kind::Flag); statements::FRICTION_KEYWORDS.len() + 1];
+    let mut index = 0;
+    while index < statements::FRICTION_KEYWORDS.len() {
+        keywords[index] = statements::FRICTION_KEYWORDS[index];
+        index += 1;
+    }
+    keywords
+};
+
 /// FRICTION as a command.
 pub(crate) fn friction(reading: &mut Reading) -> Option<CommandKind> {
     fixed(reading, &["JOINT", "FORMULATION", "I_YOKE", "J_YOKE"]);
@@ -142,6 +163,7 @@ pub(crate) fn friction(reading: &mut Reading) -> Option<CommandKind> {
     let kind = ChangeKind::Friction {
         id: reading.id,
         arguments: Box::new(statements::friction_arguments(reading)),
+        list: reading.has("LIST"),
     };
     Some(change(reading, kind))
 }
@@ -153,6 +175,13 @@ pub(crate) fn integrator(reading: &mut Reading) -> Option<CommandKind> {
     Some(change(reading, kind))
 }
 
+/// EQUILIBRIUM as a command.
+pub(crate) fn equilibrium(reading: &mut Reading) -> Option<CommandKind> {
+    something(reading);
+    let kind = ChangeKind::Equilibrium(Box::new(statements::equilibrium(reading)));
+    Some(change(reading, kind))
+}
+
 /// ACCGRAV as a command.
 pub(crate) fn gravity(reading: &mut Reading) -> Option<CommandKind> {
     something(reading);
@@ -160,14 +189,19 @@ pub(crate) fn gravity(reading: &mut Reading) -> Option<CommandKind> {
     Some(change(reading, kind))
 }
 
+/// The value that is given, else the one before.
+fn value<T>(given: Option<(T, Span)>, before: T) -> T {
+    given.map_or(before, |(value, _)| value)
+}
+
 impl Friction {
     /// Takes the values of the arguments that are given.
     pub(crate) fn take(&mut self, arguments: &FrictionArguments) {
-        self.mu_static = arguments.mu_static.unwrap_or(self.mu_static);
-        self.mu_dynamic = arguments.mu_dynamic.unwrap_or(self.mu_dynamic);
-        self.effect = arguments.effect.unwrap_or(self.effect);
-        self.inputs = arguments.inputs.unwrap_or(self.inputs);
-        self.overlap_delta = arguments.overlap_delta.unwrap_or(self.overlap_delta);
+        self.mu_static = value(arguments.mu_static, self.mu_static);
+        self.mu_dynamic = value(arguments.mu_dynamic, self.mu_dynamic);
+        self.effect = value(arguments.effect, self.effect);
+        self.inputs = value(arguments.inputs, self.inputs);
+        self.overlap_delta = value(arguments.overlap_delta, self.overlap_delta);
         self.inactive_static |= arguments.inactive_static;
         for (quantity, value, _) in &arguments.quantities {
             self.set(*quantity, *value);
@@ -195,6 +229,23 @@ impl Integrator {
         self.alpha = other.alpha.or(self.alpha);
         self.beta = other.beta.or(self.beta);
         self.gamma = other.gamma.or(self.gamma);
+    }
+}
+
+impl Equilibrium {
+    /// Takes the values of the arguments that `other` gives.
+    fn take(&mut self, other: &Self) {
+        self.alimit = other.alimit.or(self.alimit);
+        self.tlimit = other.tlimit.or(self.tlimit);
+        self.error = other.error.or(self.error);
+        self.imbalance = other.imbalance.or(self.imbalance);
+        self.stability = other.stability.or(self.stability);
+        self.maxit = other.maxit.or(self.maxit);
+        self.pattern = other.pattern.clone().or_else(|| self.pattern.take());
+        self.method = other.method.clone().or_else(|| self.method.take());
+        self.atol = other.atol.or(self.atol);
+        self.rtol = other.rtol.or(self.rtol);
+        self.maxitl = other.maxitl.or(self.maxitl);
     }
 }
 
@@ -254,18 +305,21 @@ impl Dataset {
                     self.motions.by_id_mut(*id)?.function = function.clone();
                 }
             }
-            ChangeKind::Friction { id, arguments } => {
+            ChangeKind::Friction { id, arguments, .. } => {
                 let friction = self.frictions.by_id_mut(*id)?;
                 friction.take(arguments);
                 let joint = self.joints.by_id(friction.joint);
                 if let (Some(joint), Some(friction)) = (joint, self.frictions.by_id(*id)) {
-                    let span = change.span;
-                    checks::unused_arguments(friction, joint.kind, arguments, span, diagnostics);
+                    checks::unused_arguments(friction, joint.kind, arguments, diagnostics);
                 }
             }
             ChangeKind::Integrator(given) => {
                 self.integrator.get_or_insert_default().take(given);
             }
+            ChangeKind::Equilibrium(given) => {
+                self.equilibrium.get_or_insert_default().take(given);
+            }
+            ChangeKind::Activity(activity) => self.switch(activity, change.span, diagnostics),
             ChangeKind::Gravity(components) => {
                 let gravity = self.gravity.get_or_insert_default();
                 for (old, new) in gravity.iter_mut().zip(components) {
@@ -287,6 +341,9 @@ impl Change {
             ChangeKind::Motion { id, .. } => ("MOTION", id),
             ChangeKind::Friction { id, .. } => ("FRICTION", id),
             ChangeKind::Integrator(_) => ("INTEGRATOR", 0),
+            ChangeKind::Equilibrium(_) => ("EQUILIBRIUM", 0),
+            ChangeKind::Activity(Activity { active: true, .. }) => ("ACTIVATE", 0),
+            ChangeKind::Activity(_) => ("DEACTIVATE", 0),
             ChangeKind::Gravity(_) => ("ACCGRAV", 0),
         }
     }

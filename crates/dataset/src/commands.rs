@@ -1,6 +1,5 @@
 //! From text to a [`CommandFile`].
 
-use crate::change;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Command, CommandFile, CommandKind, Simulate, SimulationKind};
@@ -10,6 +9,7 @@ use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
 use crate::statements::STATEMENTS;
 use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items, join};
+use crate::{activity, change};
 
 /// Reads a command file (`.acf`).
 ///
@@ -189,7 +189,7 @@ const fn unsupported(full: &'static str) -> Rule {
 
 const ASKS: &str = "it asks a question of an interactive program";
 const REPORTS: &str = "what is reported is set by the dataset";
-const SOLVERS: &str = "stiction has one way of assembly and refuses static analyses";
+const SOLVERS: &str = "stiction has one way to solve initial conditions and kinematics";
 
 const COMMANDS: &[Rule] = &[
     read("FILE", "FILE", false, FILE_KEYWORDS, file),
@@ -220,7 +220,7 @@ const COMMANDS: &[Rule] = &[
         "FRICTION",
         "FRI",
         true,
-        change::FRICTION_KEYWORDS,
+        &change::FRICTION_KEYWORDS,
         change::friction,
     ),
     read(
@@ -237,9 +237,29 @@ const COMMANDS: &[Rule] = &[
         change::GRAVITY_KEYWORDS,
         change::gravity,
     ),
+    read(
+        "EQUILIBRIUM",
+        "EQU",
+        false,
+        change::EQUILIBRIUM_KEYWORDS,
+        change::equilibrium,
+    ),
+    read(
+        "ACTIVATE",
+        "ACT",
+        false,
+        activity::KEYWORDS,
+        activity::activate,
+    ),
+    read(
+        "DEACTIVATE",
+        "DEA",
+        false,
+        activity::KEYWORDS,
+        activity::deactivate,
+    ),
     ignored("DEBUG", "it asks for diagnostics of another program"),
     ignored("ENVIRONMENT", "stiction reads no environment variables"),
-    ignored("EQUILIBRIUM", SOLVERS),
     ignored("HELP", ASKS),
     ignored("IC", SOLVERS),
     ignored("INFO", ASKS),
@@ -252,9 +272,7 @@ const COMMANDS: &[Rule] = &[
     ignored("RESULTS", REPORTS),
     ignored("SHOW", ASKS),
     ignored("TIME", ASKS),
-    unsupported("ACTIVATE"),
     unsupported("CONTROL"),
-    unsupported("DEACTIVATE"),
     unsupported("LINEAR"),
     unsupported("RELOAD"),
     unsupported("SAVE"),

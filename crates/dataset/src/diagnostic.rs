@@ -117,6 +117,8 @@ codes! {
     StaticBelowDynamic = "static-below-dynamic",
     /// A default with a length in it, in a model that is not in millimetres.
     DimensionalDefault = "dimensional-default",
+    /// An element that rests because its joint is deactivated.
+    Deactivated = "deactivated",
     /// A change of an element that a command cannot make.
     InvalidChange = "invalid-change",
 }

@@ -19,6 +19,7 @@
 //! | a rule of the whole model | `checks` |
 //! | a malformed file and its message | `tests/cases` |
 
+mod activity;
 mod arguments;
 mod change;
 mod checks;

@@ -1,8 +1,8 @@
-//! The markers and elements that expressions name exist.
+//! The markers and elements that expressions name exist, and FRICTION is read where it may be.
 
 use super::references;
-use crate::diagnostic::Diagnostics;
-use crate::expression::{ArgumentKind, ElementKind, Expr, Expression};
+use crate::diagnostic::{Code, Diagnostics};
+use crate::expression::{ArgumentKind, ElementKind, Expr, Expression, Function};
 use crate::model::{Dataset, RequestKind};
 
 /// Checks every expression of a dataset.
@@ -21,19 +21,20 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
             RequestKind::Functions(functions) => functions.as_slice(),
             _ => &[],
         });
-    let all = constraints
-        .chain(motions)
-        .chain(forces)
-        .chain(variables)
-        .chain(requests.flatten());
+    let moving = constraints.chain(motions).chain(forces).chain(variables);
     let mut missing = Vec::new();
-    for expression in all {
+    for expression in moving {
         find_missing(dataset, expression, &mut missing);
+        friction(expression, Place::Motion, diagnostics);
+    }
+    for expression in requests.flatten() {
+        find_missing(dataset, expression, &mut missing);
+        friction(expression, Place::Output, diagnostics);
     }
     report(dataset, missing, diagnostics);
 }
 
-/// Checks one expression; returns whether nothing is missing.
+/// Checks one expression of an element that moves the model; returns whether nothing is wrong.
 pub(crate) fn check(
     dataset: &Dataset,
     expression: &Expression,
@@ -43,7 +44,46 @@ pub(crate) fn check(
     find_missing(dataset, expression, &mut missing);
     let complete = missing.is_empty();
     report(dataset, missing, diagnostics);
-    complete
+    friction(expression, Place::Motion, diagnostics) && complete
+}
+
+/// What an expression belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// An element that can move the model.
+    Motion,
+    /// A REQUEST.
+    Output,
+}
+
+/// Checks the calls of `FRICTION(id, index)`, which only outputs may read; returns whether nothing
+/// is wrong.
+fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics) -> bool {
+    let mut right = true;
+    expression.root.visit(&mut |node| {
+        let Expr::Call {
+            function: Function::Friction,
+            arguments,
+            span,
+        } = node
+        else {
+            return;
+        };
+        let index = arguments.get(1).and_then(Expr::as_id).unwrap_or(0);
+        if !(1..=26).contains(&index) {
+            right = false;
+            let message = "the index of FRICTION goes from 1 to 26";
+            diagnostics.error(Code::OutOfRange, *span, message).help(
+                "1-6 force and torque, 7-13 coefficients, 14-19 velocity, 20-25 creep, 26 BETA",
+            );
+        }
+        if place == Place::Motion {
+            right = false;
+            let message = "FRICTION can be read by a REQUEST only";
+            diagnostics.error(Code::UnsupportedFunction, *span, message);
+        }
+    });
+    right
 }
 
 /// A call that names something that does not exist: what, and the identifier.

@@ -4,7 +4,7 @@ mod connections;
 mod expressions;
 mod friction;
 pub(crate) mod inertia;
-mod references;
+pub(crate) mod references;
 mod variables;
 
 pub(crate) use expressions::check as expression;

@@ -30,7 +30,7 @@ pub(super) fn check(builder: &Builder, diagnostics: &mut Diagnostics) {
 }
 
 /// Reports one identifier that names nothing.
-pub(super) fn report(
+pub(crate) fn report(
     diagnostics: &mut Diagnostics,
     name: &str,
     id: u32,
@@ -63,7 +63,7 @@ fn sorted_ids(dataset: &Dataset, target: Target) -> Vec<u32> {
 }
 
 /// The identifiers of a list in rising order.
-pub(super) fn sorted<T: Element>(list: &Elements<T>) -> Vec<u32> {
+pub(crate) fn sorted<T: Element>(list: &Elements<T>) -> Vec<u32> {
     let ids = list.iter().map(|element| element.header().id);
     let mut ids: Vec<u32> = ids.filter(|id| *id > 0).collect();
     ids.sort_unstable();
@@ -71,7 +71,7 @@ pub(super) fn sorted<T: Element>(list: &Elements<T>) -> Vec<u32> {
 }
 
 /// The identifier in a sorted list that is nearest to `id`.
-pub(super) fn nearest(ids: &[u32], id: u32) -> Option<u32> {
+pub(crate) fn nearest(ids: &[u32], id: u32) -> Option<u32> {
     let above = ids.partition_point(|known| *known < id);
     let candidates = [above.checked_sub(1), Some(above)];
     candidates

@@ -1,6 +1,8 @@
 //! What a command file (`.acf`) asks for.
 
-use super::{Effect, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta};
+use super::{
+    Activity, Effect, Equilibrium, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta,
+};
 use crate::expression::Expression;
 use crate::source::Span;
 
@@ -138,28 +140,34 @@ pub enum ChangeKind {
         id: u32,
         /// The arguments given.
         arguments: Box<FrictionArguments>,
+        /// LIST: the values of all arguments, after the change, are to be printed.
+        list: bool,
     },
     /// INTEGRATOR.
     Integrator(Box<Integrator>),
+    /// EQUILIBRIUM.
+    Equilibrium(Box<Equilibrium>),
+    /// ACTIVATE or DEACTIVATE.
+    Activity(Activity),
     /// ACCGRAV: components in the ground frame.
     Gravity([Option<f64>; 3]),
 }
 
-/// The arguments given to a FRICTION, as a statement or as a command.
+/// The arguments given to a FRICTION, as a statement or as a command, with their places.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrictionArguments {
     /// `MU_STATIC`.
-    pub mu_static: Option<f64>,
+    pub mu_static: Option<(f64, Span)>,
     /// `MU_DYNAMIC`.
-    pub mu_dynamic: Option<f64>,
+    pub mu_dynamic: Option<(f64, Span)>,
     /// EFFECT.
-    pub effect: Option<Effect>,
+    pub effect: Option<(Effect, Span)>,
     /// INPUTS.
-    pub inputs: Option<FrictionInputs>,
+    pub inputs: Option<(FrictionInputs, Span)>,
     /// `OVERLAP_DELTA`.
-    pub overlap_delta: Option<OverlapDelta>,
+    pub overlap_delta: Option<(OverlapDelta, Span)>,
     /// INACTIVE=STATIC.
     pub inactive_static: bool,
-    /// Quantities with the place of their arguments.
+    /// The numbers that have defaults.
     pub quantities: Vec<(FrictionQuantity, f64, Span)>,
 }

@@ -3,8 +3,9 @@
 use super::{
     Elements, Equilibrium, Friction, GeneralConstraint, Graphics, InitialConditions, Integrator,
     Joint, JointPrimitive, Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass,
-    Preferences, Request, ResultsOptions, SingleForce, SpringDamper, Units, Variable,
+    Preferences, Request, ResultsOptions, SingleForce, SpringDamper, Switchable, Units, Variable,
 };
+use std::collections::BTreeSet;
 
 /// A dataset: everything that stiction understands of an `.adm` file.
 ///
@@ -63,6 +64,8 @@ pub struct Dataset {
     pub initial_conditions: Option<InitialConditions>,
     /// PREFERENCES.
     pub preferences: Option<Preferences>,
+    /// What DEACTIVATE has switched off, by type and identifier; see [`Dataset::is_active`].
+    pub inactive: BTreeSet<(Switchable, u32)>,
 }
 
 impl Dataset {

@@ -12,6 +12,17 @@ pub enum Formulation {
     LuGre,
 }
 
+impl Formulation {
+    /// The name in the dataset language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::Original => "ORIGINAL",
+            Self::LuGre => "LUGRE",
+        }
+    }
+}
+
 /// EFFECT: which regimes act.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Effect {
@@ -24,6 +35,18 @@ pub enum Effect {
     Sliding,
 }
 
+impl Effect {
+    /// The name in the dataset language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::All => "ALL",
+            Self::Stiction => "STICTION",
+            Self::Sliding => "SLIDING",
+        }
+    }
+}
+
 /// Which axis of a Hooke or universal joint a friction acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Yoke {
@@ -31,6 +54,17 @@ pub enum Yoke {
     I,
     /// `J_YOKE`.
     J,
+}
+
+impl Yoke {
+    /// The name in the dataset language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::I => "I_YOKE",
+            Self::J => "J_YOKE",
+        }
+    }
 }
 
 /// `OVERLAP_DELTA`: how the overlap of a sliding joint changes with its displacement.
@@ -43,6 +77,18 @@ pub enum OverlapDelta {
     Increase,
     /// It shrinks as I moves along `+z_J`.
     Decrease,
+}
+
+impl OverlapDelta {
+    /// The name in the dataset language.
+    #[must_use]
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::Constant => "CONSTANT",
+            Self::Increase => "INCREASE",
+            Self::Decrease => "DECREASE",
+        }
+    }
 }
 
 /// INPUTS: the loads that make friction.
@@ -288,13 +334,47 @@ impl Friction {
         self.given[quantity as usize] = Some(value);
     }
 
-    /// The quantities that a joint of this kind uses and the file leaves at their defaults.
+    /// What keeps this friction, in a joint of this kind, from using a quantity; `None` where it
+    /// uses it.
+    pub(crate) fn unused(&self, quantity: FrictionQuantity, joint: JointKind) -> Option<String> {
+        use FrictionQuantity as Q;
+        if !quantity.used_in(self.formulation) {
+            return Some(format!("FORMULATION = {}", self.formulation.keyword()));
+        }
+        if !quantity.used_by(joint) {
+            return Some(format!("a {} joint", joint.keyword()));
+        }
+        let by_effect = match self.effect {
+            Effect::All => false,
+            Effect::Stiction => quantity == Q::TransitionVelocityCoefficient,
+            Effect::Sliding => matches!(
+                quantity,
+                Q::TransitionVelocityCoefficient | Q::MaxStictionDeformation
+            ),
+        };
+        if by_effect {
+            return Some(format!("EFFECT = {}", self.effect.keyword()));
+        }
+        let (input, on) = match quantity {
+            Q::FrictionForcePreload | Q::FrictionTorquePreload => ("PRELOAD", self.inputs.preload),
+            Q::FrictionArm => ("REACTION_FORCE", self.inputs.reaction_force),
+            Q::InitialOverlap | Q::BendingFactor | Q::BendingReactionArm => {
+                ("BENDING_MOMENT", self.inputs.bending_moment)
+            }
+            Q::ReactionArm => ("TORSIONAL_MOMENT", self.inputs.torsional_moment),
+            _ => return None,
+        };
+        (!on).then(|| format!("INPUTS without {input}"))
+    }
+
+    /// The quantities that this friction, in a joint of this kind, uses and the file leaves at
+    /// their defaults.
     #[must_use]
     pub fn defaults_in_use(&self, joint: JointKind) -> Vec<DefaultInUse> {
         FrictionQuantity::ALL
             .into_iter()
-            .filter(|quantity| quantity.used_by(joint) && quantity.used_in(self.formulation))
             .filter(|quantity| self.given(*quantity).is_none())
+            .filter(|quantity| self.unused(*quantity, joint).is_none())
             .map(|quantity| DefaultInUse {
                 quantity,
                 value: quantity.default_value(),

@@ -3,6 +3,7 @@
 //! Numbers are those of the file; only angles given with the suffix `D` are converted to radians.
 //! Statements keep the order of the file.
 
+mod activity;
 mod commands;
 mod dataset;
 mod elements;
@@ -16,6 +17,7 @@ mod settings;
 mod units;
 mod variable;
 
+pub use activity::{Activity, Selection, Switchable};
 pub use commands::{
     Change, ChangeKind, Command, CommandFile, CommandKind, FrictionArguments, Simulate,
     SimulationKind,

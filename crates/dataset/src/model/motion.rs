@@ -38,6 +38,17 @@ pub enum MotionTarget {
     },
 }
 
+impl MotionTarget {
+    /// The id of the joint that it moves, where it moves one.
+    #[must_use]
+    pub const fn joint(self) -> Option<u32> {
+        match self {
+            Self::JointRotation(id) | Self::JointTranslation(id) => Some(id),
+            Self::Markers { .. } => None,
+        }
+    }
+}
+
 /// What the function of a motion prescribes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotionLevel {

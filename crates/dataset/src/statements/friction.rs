@@ -1,6 +1,6 @@
 //! FRICTION.
 
-use super::{Builder, Target, add};
+use super::{Builder, FrictionPlaces, Target, add};
 use crate::diagnostic::Code;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{
@@ -64,26 +64,29 @@ pub(crate) fn arguments(reading: &mut Reading) -> FrictionArguments {
         }
         quantities.push((quantity, value, reading.place(keyword)));
     }
-    let effects = [
-        ("ALL", Effect::All),
-        ("STICTION", Effect::Stiction),
-        ("SLIDING", Effect::Sliding),
-    ];
+    let effects =
+        [Effect::All, Effect::Stiction, Effect::Sliding].map(|effect| (effect.keyword(), effect));
     let overlaps = [
-        ("CONSTANT", OverlapDelta::Constant),
-        ("INCREASE", OverlapDelta::Increase),
-        ("DECREASE", OverlapDelta::Decrease),
-    ];
+        OverlapDelta::Constant,
+        OverlapDelta::Increase,
+        OverlapDelta::Decrease,
+    ]
+    .map(|delta| (delta.keyword(), delta));
     reading.exclude("INACTIVE", &["INACTIVE_DURING"]);
     let during_static = [("STATIC", true)];
     let inactive = reading.choice("INACTIVE", &during_static);
     let inactive_during = reading.choice("INACTIVE_DURING", &during_static);
+    let mu_static = reading.positive("MU_STATIC");
+    let mu_dynamic = reading.positive("MU_DYNAMIC");
+    let effect = reading.choice("EFFECT", &effects);
+    let inputs = inputs(reading);
+    let overlap_delta = reading.choice("OVERLAP_DELTA", &overlaps);
     FrictionArguments {
-        mu_static: reading.positive("MU_STATIC"),
-        mu_dynamic: reading.positive("MU_DYNAMIC"),
-        effect: reading.choice("EFFECT", &effects),
-        inputs: inputs(reading),
-        overlap_delta: reading.choice("OVERLAP_DELTA", &overlaps),
+        mu_static: mu_static.map(|value| (value, reading.place("MU_STATIC"))),
+        mu_dynamic: mu_dynamic.map(|value| (value, reading.place("MU_DYNAMIC"))),
+        effect: effect.map(|value| (value, reading.place("EFFECT"))),
+        inputs: inputs.map(|value| (value, reading.place("INPUTS"))),
+        overlap_delta: overlap_delta.map(|value| (value, reading.place("OVERLAP_DELTA"))),
         inactive_static: inactive.or(inactive_during).is_some(),
         quantities,
     }
@@ -125,17 +128,24 @@ pub(super) fn friction(reading: &mut Reading, builder: &mut Builder) {
     reading.require("MU_STATIC");
     reading.require("MU_DYNAMIC");
     let given = arguments(reading);
-    let mut friction = Friction::new(reading.header(), joint, 1.0, 1.0);
-    friction.yoke = reading.one_flag(&[("I_YOKE", Yoke::I), ("J_YOKE", Yoke::J)]);
-    let formulations = [
-        ("ORIGINAL", Formulation::Original),
-        ("LUGRE", Formulation::LuGre),
-    ];
+    // A coefficient that is missing, which has been reported, is taken as equal to the other one.
+    let either = given.mu_static.or(given.mu_dynamic);
+    let mu = either.map_or(1.0, |(value, _)| value);
+    let mut friction = Friction::new(reading.header(), joint, mu, mu);
+    let yokes = [Yoke::I, Yoke::J].map(|yoke| (yoke.keyword(), yoke));
+    friction.yoke = reading.one_flag(&yokes);
+    let formulations = [Formulation::Original, Formulation::LuGre]
+        .map(|formulation| (formulation.keyword(), formulation));
     friction.formulation = reading
         .choice("FORMULATION", &formulations)
         .unwrap_or_default();
     friction.take(&given);
-    builder.friction_arguments.push(given);
+    builder.frictions.push(FrictionPlaces {
+        head: reading.head,
+        joint: reading.place("JOINT"),
+        yoke: friction.yoke.map(|yoke| reading.place(yoke.keyword())),
+        arguments: given,
+    });
     let list = &mut builder.dataset.frictions;
     add(list, friction, reading.name, reading.diagnostics);
 }

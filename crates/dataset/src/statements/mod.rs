@@ -15,7 +15,7 @@ pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
 pub(crate) use friction::arguments as friction_arguments;
 pub(crate) use motion::KEYWORDS as MOTION_KEYWORDS;
-pub(crate) use settings::{INTEGRATOR_KEYWORDS, integrator};
+pub(crate) use settings::{EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, equilibrium, integrator};
 pub(crate) use table::{Action, STATEMENTS};
 pub(crate) use units::{GRAVITY_KEYWORDS, gravity};
 pub(crate) use variable::KEYWORDS as VARIABLE_KEYWORDS;
@@ -54,13 +54,24 @@ pub(crate) struct Reference {
     pub(crate) span: Span,
 }
 
+/// The places of a FRICTION and its arguments.
+pub(crate) struct FrictionPlaces {
+    /// Its name and identifier.
+    pub(crate) head: Span,
+    /// JOINT.
+    pub(crate) joint: Span,
+    /// `I_YOKE` or `J_YOKE`.
+    pub(crate) yoke: Option<Span>,
+    pub(crate) arguments: FrictionArguments,
+}
+
 /// A dataset while it is read.
 #[derive(Default)]
 pub(crate) struct Builder {
     pub(crate) dataset: Dataset,
     pub(crate) references: Vec<Reference>,
-    /// The arguments of every FRICTION, in the order of `dataset.frictions`.
-    pub(crate) friction_arguments: Vec<FrictionArguments>,
+    /// What checks need of every FRICTION, in the order of `dataset.frictions`.
+    pub(crate) frictions: Vec<FrictionPlaces>,
     /// The part before the statement, which owns markers that name no part.
     pub(crate) last_part: Option<u32>,
     /// Statements without identifier seen so far.

@@ -88,7 +88,7 @@ pub(super) fn integrator_statement(reading: &mut Reading, builder: &mut Builder)
     builder.dataset.integrator = Some(integrator(reading));
 }
 
-pub(super) const EQUILIBRIUM_KEYWORDS: &[Keyword] = &[
+pub(crate) const EQUILIBRIUM_KEYWORDS: &[Keyword] = &[
     abbreviated("ALIMIT", "AL", Kind::Real),
     abbreviated("TLIMIT", "TL", Kind::Real),
     abbreviated("ERROR", "ERR", Kind::Real),
@@ -107,9 +107,9 @@ pub(super) const EQUILIBRIUM_KEYWORDS: &[Keyword] = &[
     ),
 ];
 
-/// EQUILIBRIUM.
-pub(super) fn equilibrium(reading: &mut Reading, builder: &mut Builder) {
-    builder.dataset.equilibrium = Some(Equilibrium {
+/// The arguments of EQUILIBRIUM, as a statement or as a command.
+pub(crate) fn equilibrium(reading: &mut Reading) -> Equilibrium {
+    Equilibrium {
         alimit: reading.positive("ALIMIT"),
         tlimit: reading.positive("TLIMIT"),
         error: reading.positive("ERROR"),
@@ -122,7 +122,12 @@ pub(super) fn equilibrium(reading: &mut Reading, builder: &mut Builder) {
         rtol: reading.positive("RTOL"),
         maxitl: reading.count("MAXITL"),
         span: reading.span,
-    });
+    }
+}
+
+/// EQUILIBRIUM.
+pub(super) fn equilibrium_statement(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.equilibrium = Some(equilibrium(reading));
 }
 
 pub(super) const KINEMATICS_KEYWORDS: &[Keyword] = &[

@@ -133,7 +133,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         "EQUILIBRIUM",
         "EQU",
         settings::EQUILIBRIUM_KEYWORDS,
-        settings::equilibrium,
+        settings::equilibrium_statement,
     ),
     single(
         "KINEMATICS",

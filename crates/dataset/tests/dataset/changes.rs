@@ -2,7 +2,7 @@
 
 use dataset::{
     ChangeKind, CommandKind, Dataset, Effect, FrictionQuantity, Severity, SimulationKind, Source,
-    parse_change, read_commands, read_dataset,
+    Switchable, parse_change, read_commands, read_dataset,
 };
 
 const MODEL: &str = "title
@@ -87,6 +87,18 @@ fn changes_that_cannot_be_made_leave_the_model_alone() {
             "MU_STATIC must be greater than 0",
         ),
         ("FRICTION/1", "FRICTION/1 gives nothing to change"),
+        (
+            "VARIABLE/1, FUNCTION=FRICTION(1, 6)",
+            "FRICTION can be read by a REQUEST only",
+        ),
+        ("EQUILIBRIUM", "EQUILIBRIUM gives nothing to change"),
+        ("EQUILIBRIUM/STABILITY=-1", "STABILITY must be 0 or greater"),
+        ("DEACTIVATE/JOINT, ID=1, 2", "there is no JOINT/2"),
+        ("ACTIVATE/MOTION, ID=1", "there is no MOTION/1"),
+        (
+            "DEACTIVATE/FRICTION, RANGE=2, 9",
+            "there is no FRICTION from 2 to 9",
+        ),
     ] {
         let mut model = before.clone();
         assert_eq!(
@@ -95,6 +107,99 @@ fn changes_that_cannot_be_made_leave_the_model_alone() {
             "{change}"
         );
         assert_eq!(model, before, "{change}");
+    }
+}
+
+#[test]
+fn an_equilibrium_command_changes_what_it_gives() {
+    let mut model = model();
+    assert_eq!(apply(&mut model, "EQUIL/STAB=1E-3, MAXIT=50"), None);
+    assert_eq!(
+        apply(
+            &mut model,
+            "EQUILIBRIUM/ERROR=1E-6, IMBAL=1E-5, MAXIT=60, TLIM=5, ALIM=5D"
+        ),
+        None
+    );
+    let settings = model.equilibrium.unwrap();
+    assert_eq!(
+        (settings.stability, settings.maxit, settings.error),
+        (Some(1e-3), Some(60), Some(1e-6))
+    );
+    assert_eq!(
+        (settings.imbalance, settings.tlimit, settings.alimit),
+        (Some(1e-5), Some(5.0), Some(5.0_f64.to_radians()))
+    );
+}
+
+#[test]
+fn elements_are_deactivated_and_activated() {
+    let mut model = model();
+    let active = |model: &Dataset| {
+        [(Switchable::Joint, 1), (Switchable::Friction, 1)].map(|(k, id)| model.is_active(k, id))
+    };
+    assert_eq!(active(&model), [true, true]);
+    assert_eq!(apply(&mut model, "DEACTIVATE/FRICTION, ID=1"), None);
+    assert_eq!(active(&model), [true, false]);
+    assert_eq!(apply(&mut model, "ACTIVATE/FRI, RANGE=1, 5"), None);
+    assert_eq!(active(&model), [true, true]);
+    // The friction rests with its joint, and comes back with it.
+    let rests = Some("FRICTION/1 rests with its JOINT/1".to_string());
+    assert_eq!(apply(&mut model, "DEACTIVATE/JOINT, RANGE=1, 1"), rests);
+    assert_eq!(active(&model), [false, false]);
+    let before = model.clone();
+    assert_eq!(
+        apply(&mut model, "ACTIVATE/FRICTION, ID=1").as_deref(),
+        Some("FRICTION/1 cannot be activated: its JOINT/1 is deactivated")
+    );
+    assert_eq!(model, before);
+    assert_eq!(apply(&mut model, "ACTIVATE/JOINT, ID=1"), None);
+    assert_eq!(active(&model), [true, true]);
+    // One that rests by itself is not named again, and does not come back.
+    assert_eq!(apply(&mut model, "DEACTIVATE/FRICTION, ID=1"), None);
+    assert_eq!(apply(&mut model, "DEACTIVATE/JOINT, ID=1, 1"), None);
+    assert_eq!(apply(&mut model, "ACTIVATE/JOINT, ID=1"), None);
+    assert_eq!(active(&model), [true, false]);
+}
+
+#[test]
+fn a_motion_rests_with_its_joint() {
+    let text = MODEL.to_string() + "MOTION/4, JOINT=1, ROTATIONAL, FUNCTION=TIME\n";
+    let source = Source::from_text("model.adm", text);
+    let mut model = read_dataset(&source).0;
+    assert_eq!(
+        apply(&mut model, "DEACTIVATE/FRICTION, ID=1").as_deref(),
+        None
+    );
+    assert_eq!(
+        apply(&mut model, "DEACTIVATE/JOINT, ID=1").as_deref(),
+        Some("MOTION/4 rests with its JOINT/1")
+    );
+    assert!(!model.is_active(Switchable::Motion, 4));
+}
+
+#[test]
+fn list_is_read_alone_and_with_other_arguments() {
+    for (text, mu_static) in [
+        ("friction/1, list", None),
+        ("FRICTION/1, MU_STATIC=0.4, LIST", Some(0.4)),
+    ] {
+        let source = Source::from_text("run.acf", format!("\n{text}\n"));
+        let (file, diagnostics) = read_commands(&source);
+        assert!(diagnostics.is_empty(), "{diagnostics:?}");
+        let CommandKind::Change(change) = &file.commands[0].kind else {
+            panic!("{text}")
+        };
+        let ChangeKind::Friction {
+            id: 1,
+            arguments,
+            list: true,
+        } = &change.kind
+        else {
+            panic!("{text}: {change:?}")
+        };
+        assert_eq!(arguments.mu_static.map(|(value, _)| value), mu_static);
+        assert!(model().apply(change).is_empty());
     }
 }
 

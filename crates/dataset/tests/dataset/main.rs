@@ -6,5 +6,6 @@ mod cases;
 mod changes;
 mod corpus;
 mod language;
+mod misuse;
 mod mutations;
 mod shared;

@@ -1,5 +1,6 @@
-//! Files of the reference data.
+//! Files of the reference data, and diagnostics with the text that they mark.
 
+use dataset::{Code, Diagnostic, Severity, Source};
 use std::path::{Path, PathBuf};
 
 /// The datasets and command files in a folder and below, in the order of their names.
@@ -19,4 +20,25 @@ pub(crate) fn models(folder: &Path) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// A diagnostic with the text that it marks.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Marked {
+    pub(crate) code: Code,
+    pub(crate) severity: Severity,
+    /// The text under the caret.
+    pub(crate) text: String,
+    pub(crate) message: String,
+}
+
+/// A diagnostic about `source`.
+pub(crate) fn marked(diagnostic: &Diagnostic, source: &Source) -> Marked {
+    let span = diagnostic.span;
+    Marked {
+        code: diagnostic.code,
+        severity: diagnostic.severity,
+        text: source.text()[span.start..span.end].to_string(),
+        message: diagnostic.message.clone(),
+    }
 }
