@@ -89,6 +89,12 @@ pub(crate) fn angular_velocity(simulation: &Simulation, body: usize) -> Vector3<
     Vector3::from_column_slice(&simulation.state().velocities()[6 * body + 3..6 * body + 6])
 }
 
+/// Angle about z that a body has turned from its start, within half a turn.
+pub(crate) fn turned(snapshot: &Snapshot<'_>, body: usize) -> f64 {
+    let m = snapshot.rotation(body);
+    m[(1, 0)].atan2(m[(0, 0)])
+}
+
 /// A coordinate at a time with its rate.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample {

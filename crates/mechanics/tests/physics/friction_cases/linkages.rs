@@ -1,10 +1,12 @@
 //! Friction in loops: slider-crank (C01a) and four-bar (C02a).
 
+use friction::parameters::JointType;
 use mechanics::Formulation;
 use mechanics::model::Model;
 use serde_json::Value;
+use verification::{Case, Claim, Rule, Section, check};
 
-use super::{HALVINGS, Row, Rule};
+use super::{HALVINGS, TURNS, original};
 use crate::runs::{Sample, every, run, settings, turning_points};
 use crate::shared::{number, reference};
 use crate::systems::{four_bar, law, slider_crank};
@@ -38,63 +40,68 @@ fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {
 
 /// Turns and the angle at rest; `slow` is the largest Vs for each.
 fn study(
-    name: &str,
-    case: &Value,
+    case: &Case<'_>,
+    exact: &Value,
     end: f64,
     turns: usize,
     slow: [f64; 2],
     model: impl Fn(f64) -> Model,
-) -> Vec<Row> {
-    let start = number(case, "/params/theta0");
-    let last = case["turning"].as_array().expect("a list").len() - 1;
-    let exact = |n: usize, key: &str| number(case, &format!("/turning/{n}/{key}"));
-    let after = exact(turns - 1, "t") + 0.05;
+) -> Vec<Claim> {
+    let start = number(exact, "/params/theta0");
+    let last = exact["turning"].as_array().expect("a list").len() - 1;
+    let at = |n: usize, key: &str| number(exact, &format!("/turning/{n}/{key}"));
+    let after = at(turns - 1, "t") + 0.05;
     let runs = HALVINGS.map(|h| crank(model(slow[0] * h), start, after).0);
     let rest = HALVINGS.map(|h| crank(model(slow[1] * h), start, end).1);
-    let mut rows = Vec::new();
+    let rule = Rule::AtLeastOrder(1.0);
+    let mut claims = Vec::new();
     for n in 0..turns {
-        let angle = ["turn 1", "turn 2", "turn 3", "turn 4"][n];
-        let time = [
-            "time of turn 1",
-            "time of turn 2",
-            "time of turn 3",
-            "time of turn 4",
-        ][n];
-        let of = |value: fn(&(f64, f64)) -> f64, key: &str| -> Vec<f64> {
-            runs.iter()
-                .map(|t| (value(&t[n]) - exact(n, key)).abs())
-                .collect()
-        };
-        rows.push(Row::new(
-            name,
-            angle,
-            of(|t| t.1, "theta"),
-            Rule::AtLeastFirst,
-        ));
-        rows.push(Row::new(name, time, of(|t| t.0, "t"), Rule::AtLeastFirst));
+        let angles = runs.each_ref().map(|t| t[n].1);
+        let times = runs.each_ref().map(|t| t[n].0);
+        let quantity = format!("angle of turn {} [rad]", n + 1);
+        claims.push(case.limit(&quantity, &angles, at(n, "theta"), rule, TURNS));
+        let quantity = format!("time of turn {} [s]", n + 1);
+        claims.push(case.limit(&quantity, &times, at(n, "t"), rule, TURNS));
     }
-    let errors = rest
-        .iter()
-        .map(|angle| (angle - exact(last, "theta")).abs())
-        .collect();
-    rows.push(Row::new(name, "angle at rest", errors, Rule::AtLeastFirst));
-    rows
+    let quantity = format!("angle at rest, Vs from {} mm/s [rad]", 1e3 * slow[1]);
+    claims.push(case.limit(&quantity, &rest, at(last, "theta"), rule, TURNS));
+    claims
 }
 
-pub(crate) fn rows() -> Vec<Row> {
+const SOURCE: &str = "exact stick and slip with every event located, Runge–Kutta 1e-12";
+
+#[test]
+fn slider_crank_with_friction_in_its_guide() {
     let Some(file) = reference("validation/data/C01_C02_mechanisms.json") else {
-        return Vec::new();
+        return;
     };
-    let cases = &file["cases"];
-    let law = |vs: f64| law(0.25, 0.2, vs, 1e-2 * vs);
-    let case = &cases["C01a_slider_only"];
-    let mut rows = study("C01a slider-crank", case, 2.2, 2, [8e-2, 4e-2], |vs| {
-        slider_crank(Some(law(vs)))
-    });
-    let case = &cases["C02a_fourbar_pins"];
-    let name = "C02a four-bar, four pins";
-    rows.extend(study(name, case, 3.2, 4, [8e-3, 1e-3], |vs| {
-        four_bar(Some(law(vs)))
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C01a",
+        model: "crank 0.1 m, rod 0.3 m, slider; 1, 1.5, 2 kg; μs 0.25, μd 0.2 in the guide, from 20 rad/s; Vs from 80 mm/s",
+        source: SOURCE,
+        covers: &original(JointType::Translational, &["INPUTS"]),
+    };
+    let exact = &file["cases"]["C01a_slider_only"];
+    check(&study(&case, exact, 2.2, 2, [8e-2, 4e-2], |vs| {
+        slider_crank(Some(law(0.25, 0.2, vs, 1e-2 * vs)))
     }));
-    rows
+}
+
+#[test]
+fn four_bar_with_friction_in_its_pins() {
+    let Some(file) = reference("validation/data/C01_C02_mechanisms.json") else {
+        return;
+    };
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C02a",
+        model: "four-bar 0.1, 0.35, 0.3, 0.4 m; 1, 3.5, 3 kg; four pins of 15 mm, μs 0.25, μd 0.2, from 20 rad/s; Vs from 8 mm/s",
+        source: SOURCE,
+        covers: &original(JointType::Revolute, &["PIN_RADIUS", "INPUTS"]),
+    };
+    let exact = &file["cases"]["C02a_fourbar_pins"];
+    check(&study(&case, exact, 3.2, 4, [8e-3, 1e-3], |vs| {
+        four_bar(Some(law(0.25, 0.2, vs, 1e-2 * vs)))
+    }));
 }
