@@ -10,9 +10,10 @@
 //! | effective load | [`joint`] | reaction force and moment of the joint | `N`, `Teff` or `Rb*\|F\|` |
 //! | resultant | [`resultant`](mod@resultant) | coefficient, load, preload, limit | force or torque on the I part |
 //!
-//! Everything is a plain function of its arguments: no state, no allocation, no panics on finite
+//! All of it is plain functions of their arguments: no state, no allocation, no panics on finite
 //! input. The creep is the caller's state; [`Original::settle`] says what becomes of it after an
-//! accepted step.
+//! accepted step. For simulators that step explicitly, [`explicit`] puts the four together and keeps
+//! the state.
 //!
 //! # Signs and frames
 //! Velocities are those of the **I** marker's part relative to the **J** marker's part, measured at
@@ -39,6 +40,7 @@ extern crate std;
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("enable one of the features `std` (default) and `libm` for the square root");
 
+pub mod explicit;
 pub mod joint;
 pub mod lugre;
 pub mod original;

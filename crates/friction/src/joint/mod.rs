@@ -51,6 +51,11 @@ impl Inputs {
         bending_moment: false,
         torsional_moment: false,
     };
+
+    /// The preload where `PRELOAD` is among the inputs, else zero.
+    pub(crate) fn preloaded(self, preload: f64) -> f64 {
+        if self.preload { preload } else { 0.0 }
+    }
 }
 
 /// Effective load of a joint with its derivatives.
@@ -75,4 +80,18 @@ pub struct Load {
     /// The overlap has shrunk to its lower limit and the load is no longer physical: worth one
     /// warning (translational and cylindrical joints, else false).
     pub overlap_exhausted: bool,
+}
+
+impl Load {
+    /// No load.
+    pub const NONE: Self = Self {
+        value: 0.0,
+        by_force: [0.0; 3],
+        by_moment: [0.0; 3],
+        by_displacement: 0.0,
+        from_reaction: 0.0,
+        from_bending: 0.0,
+        from_torsion: 0.0,
+        overlap_exhausted: false,
+    };
 }

@@ -4,7 +4,9 @@
     reason = "each test binary uses its own part of this module"
 )]
 
-use friction::{Effect, Original};
+pub(crate) mod integrator;
+
+use friction::{Effect, LuGre, Original};
 use verification::{Case, Section};
 
 /// The text of a file of the reference data, or `None` with a printed reason.
@@ -34,6 +36,29 @@ pub(crate) fn law(effect: Effect) -> Original {
         max_deformation: 0.01,
         effect,
     }
+}
+
+/// Set of Canudas de Wit et al. (1995), table 1: levels 1.5 N and 1 N at a load of one.
+pub(crate) fn canudas() -> LuGre {
+    LuGre {
+        mu_static: 1.5,
+        mu_dynamic: 1.0,
+        bristle_stiffness: 1e5,
+        damping: 1e5f64.sqrt(),
+        viscous: 0.4,
+        stribeck_velocity: 1e-3,
+        stribeck_exponent: 2.0,
+    }
+}
+
+/// Numbers of a comma-separated table after its header line.
+pub(crate) fn table(text: &str) -> Vec<Vec<f64>> {
+    let numbers = |line: &str| {
+        line.split(',')
+            .map(|cell| cell.trim().parse().unwrap())
+            .collect()
+    };
+    text.lines().skip(1).map(numbers).collect()
 }
 
 /// Repeatable random numbers (`SplitMix64`).
