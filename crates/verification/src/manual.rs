@@ -166,7 +166,7 @@ fn row(page: &mut String, claim: &Claim) {
     };
     let orders = number::list(&claim.orders(), number::order);
     let (rule, orders) = match claim.rule {
-        Rule::Below(bound) => (format!("≤ {bound:.0e}"), String::new()),
+        Rule::Below(bound) => (format!("≤ {bound:e}"), String::new()),
         Rule::Order(p) => (
             format!("order {p} ± {MARGIN}"),
             format!("; orders {orders}"),
@@ -176,7 +176,7 @@ fn row(page: &mut String, claim: &Claim) {
             format!("; orders {orders}"),
         ),
         Rule::Falling(bound) => (
-            format!("falls five times for each hundred of tolerance, last ≤ {bound:.0e}"),
+            format!("falls five times for each hundred of tolerance, last ≤ {bound:e}"),
             String::new(),
         ),
     };

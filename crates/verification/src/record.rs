@@ -38,7 +38,7 @@ fn line(claim: &Claim) -> String {
     let errors = number::list(&claim.errors, number::error);
     let mark = if claim.holds() { "" } else { "  <-- fails" };
     let rule = match claim.rule {
-        Rule::Below(bound) | Rule::Falling(bound) => format!("at most {bound:.0e}"),
+        Rule::Below(bound) | Rule::Falling(bound) => format!("at most {bound:e}"),
         Rule::Order(_) | Rule::AtLeastOrder(_) => {
             format!("orders {}", number::list(&claim.orders(), number::order))
         }

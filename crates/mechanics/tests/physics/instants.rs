@@ -1,9 +1,11 @@
 //! Single instants against formulas by hand: accelerations, reactions and friction together.
 
+use friction::parameters::JointType;
 use mechanics::expression::Program;
 use mechanics::model::{ForceKind, FrictionJoint, JointKind};
 use mechanics::{Owner, Simulation};
 use nalgebra::Vector3;
+use verification::{Case, Coverage, Section, check};
 
 use crate::builder::{Builder, axes_with_z, v};
 use crate::runs::assembled;
@@ -31,9 +33,18 @@ fn rod_on_a_pin_with_friction_meets_the_reference() {
         return;
     };
     let table = "/cases/b_uniform_rod/instantaneous";
-    println!(
-        "\nB04 b, single instants: errors of acceleration, torque, radial, tangential reaction"
-    );
+    let case = Case {
+        section: Section::Joint,
+        id: "B04b instants",
+        model: "rod of 1 kg and 1 m on a pin of 0.05 m, μs 0.4, μd 0.3: five states",
+        source: "equation of motion with the friction of the same reaction, 1e-13",
+        covers: &[Coverage {
+            joint: JointType::Revolute,
+            formulation: verification::Formulation::Original,
+            arguments: &["PIN_RADIUS", "MU_DYNAMIC", "INPUTS"],
+        }],
+    };
+    let mut claims = Vec::new();
     for n in 0..5 {
         let given = |key: &str| number(&file, &format!("{table}/{n}/{key}"));
         // At rest the direction is that of the motion about to begin: slow, yet sliding.
@@ -54,21 +65,16 @@ fn rod_on_a_pin_with_friction_meets_the_reference() {
         let simulation = assembled(pendulum.model());
         let (radial, tangential) = radial_and_tangential(&simulation, pendulum.angle);
         let torque = simulation.snapshot().friction(0).force[0];
-        let errors = [
-            acceleration(&simulation) - given("alpha"),
-            torque.abs() - given("T"),
-            radial - given("N_radial"),
-            tangential - given("N_tangential"),
-        ];
-        println!(
-            "theta {:>5.2} omega {rate:>8.1e}: {}",
-            pendulum.angle,
-            errors.map(|e| format!("{e:>9.1e}")).join(" ")
-        );
         assert!(torque * rate < 0.0, "friction brakes");
-        // Rounding of numbers of ten; the rate of 1e-6 changes the reaction by its square.
-        assert!(errors.iter().all(|e| e.abs() < 1e-10), "{n}: {errors:?}");
+        claims.push(case.values(
+            &format!("θ″, T, N radial, N tangential of state {}", n + 1),
+            &[acceleration(&simulation), torque.abs(), radial, tangential],
+            &["alpha", "T", "N_radial", "N_tangential"].map(given),
+            1e-10,
+            "rounding of numbers of ten; a rate of 1e-6 for one of zero",
+        ));
     }
+    check(&claims);
 }
 
 #[test]
@@ -76,6 +82,7 @@ fn point_mass_on_a_pin_meets_the_closed_form() {
     // T = μ Rp |F| with F itself depending on T through the acceleration: with m = L = 1 and
     // κ = a/√(1−a²), a = μ Rp/L, θ'' = −g sin θ − κ s (θ'² + g cos θ).
     let (mu, radius, g) = (0.3, 0.05, 9.81);
+    let (mut ours, mut closed) = (Vec::new(), Vec::new());
     for (angle, rate) in [(0.3, 2.0), (-1.0, -0.5), (1.2, 4.0), (2.5, 7.0)] {
         let pendulum = Pendulum {
             length: 1.0,
@@ -90,14 +97,29 @@ fn point_mass_on_a_pin_meets_the_closed_form() {
         let a: f64 = mu * radius;
         let kappa = a / (1.0 - a * a).sqrt();
         let load: f64 = rate * rate + g * angle.cos();
-        let exact = -g * angle.sin() - kappa * rate.signum() * load.abs();
-        let error = acceleration(&simulation) - exact;
+        let across = -kappa * rate.signum() * load.abs();
         let (radial, tangential) = radial_and_tangential(&simulation, angle);
-        // Rounding of numbers of fifty.
-        assert!(error.abs() < 1e-12, "{angle} {rate}: {error:e}");
-        assert!((radial - load).abs() < 1e-12);
-        assert!((tangential + kappa * rate.signum() * load.abs()).abs() < 1e-12);
+        ours.extend([acceleration(&simulation), radial, tangential]);
+        closed.extend([-g * angle.sin() + across, load, across]);
     }
+    let case = Case {
+        section: Section::Joint,
+        id: "9.11 instants",
+        model: "a point of 1 kg at 1 m on a pin of 0.05 m, μ 0.3: four states",
+        source: "closed form, specification 9.11",
+        covers: &[Coverage {
+            joint: JointType::Revolute,
+            formulation: verification::Formulation::Original,
+            arguments: &["PIN_RADIUS", "MU_DYNAMIC"],
+        }],
+    };
+    check(&[case.values(
+        "θ″, N radial, N tangential",
+        &ours,
+        &closed,
+        1e-12,
+        "rounding of numbers of fifty",
+    )]);
 }
 
 /// A block of 2 kg whose centre is `height` above its guide (friction 0.2, overlap 0.1 m), sliding
@@ -133,18 +155,43 @@ fn high_block(height: f64, gravity: f64, push: f64) -> Simulation {
 
 #[test]
 fn bending_of_a_guide_feeds_back_into_its_friction() {
-    // The inertia force at the centre bends the guide by m |a| h, which adds μ m |a| h/Xs.
     let acceleration = |mut simulation: Simulation| {
         simulation.solve_instant().expect("the gain is below one");
         simulation.snapshot().part_acceleration(0).linear.x
     };
-    // Braking energises itself: |a| = μ g / (1 − μ h/Xs).
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C04a",
+        model: "2 kg with its centre 0.3 m above a guide of overlap 0.1 m, μ 0.2, sliding at 1 m/s",
+        source: "closed form: |a| = μ g/(1 − μ h/Xs) braking, a = P/(m (1 + μ h/Xs)) driven",
+        covers: &[Coverage {
+            joint: JointType::Translational,
+            formulation: verification::Formulation::Original,
+            arguments: &["INITIAL_OVERLAP", "BENDING_FACTOR", "INPUTS"],
+        }],
+    };
     let braking = acceleration(high_block(0.3, 9.80665, 0.0));
-    assert!((braking + 0.2 * 9.80665 / 0.4).abs() < 1e-12, "{braking}");
-    // Driven by P in the guide, without weight: a = P / (m (1 + μ h/Xs)).
     let driven = acceleration(high_block(0.3, 0.0, 5.0));
-    assert!((driven - 5.0 / (2.0 * 1.6)).abs() < 1e-12, "{driven}");
+    let rounding = "rounding";
+    check(&[
+        case.values(
+            "braking itself harder [m/s²]",
+            &[braking],
+            &[-4.903_325],
+            1e-12,
+            rounding,
+        ),
+        case.values(
+            "driven by 5 N without weight [m/s²]",
+            &[driven],
+            &[1.5625],
+            1e-12,
+            rounding,
+        ),
+    ]);
     // A gain over one has no solution: an error, not numbers.
-    let error = high_block(0.6, 9.80665, 0.0).solve_instant();
-    println!("{}", error.expect_err("it jams"));
+    let error = high_block(0.6, 9.80665, 0.0)
+        .solve_instant()
+        .expect_err("it jams");
+    assert!(error.to_string().contains("FRICTION/1"), "{error}");
 }

@@ -163,7 +163,7 @@ fn slider_that_stops() {
     (block.gravity, block.slope, block.velocity, block.mass) = (9.81, 0.0, 2.0, 1.0);
     let entry = 0.963_780_557;
     let mut times = vec![0.942_915_392, entry];
-    times.extend((1..=100).map(|k| entry + 5e-3 * f64::from(k)));
+    times.extend((1..=1000).map(|k| entry + 5e-4 * f64::from(k)));
     let mut seen = Vec::new();
     run(block.model(), &times, &error(1e-10), |s| {
         seen.push((place(s), speed(s), s.friction(0).creep[0]));
@@ -202,7 +202,7 @@ fn slider_that_stops() {
         ),
         case.values(
             "creep 0.1 s and 0.5 s later [m]",
-            &[creep[19], creep[99]],
+            &[creep[199], creep[999]],
             &[1.425_18e-3, 1.376_4e-5],
             1e-8,
             "six digits are given",
