@@ -1,8 +1,8 @@
 //! The list of scalar constraint equations that a model's joints, motions and functions make.
 
-use crate::equation::{Equation, Local, LocalMatrix};
+use crate::equation::{Axis, Equation, Local, LocalMatrix};
 use crate::expression::Input;
-use crate::model::{JointKind, Level, Model, MotionFreedom};
+use crate::model::{Element, JointKind, Level, Model, MotionFreedom};
 
 /// The element that a constraint equation belongs to, by its place in the model's lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,18 @@ pub enum Owner {
     Motion(usize),
     /// A general constraint.
     General(usize),
+}
+
+impl Owner {
+    /// The element.
+    #[must_use]
+    pub fn element(self) -> Element {
+        match self {
+            Self::Joint(place) => Element::Joint(place),
+            Self::Motion(place) => Element::Motion(place),
+            Self::General(place) => Element::Constraint(place),
+        }
+    }
 }
 
 /// What a constraint equation is about.
@@ -163,7 +175,7 @@ pub(crate) fn list(model: &Model) -> Vec<Constraint> {
     for (place, motion) in model.motions.iter().enumerate() {
         let equation = match motion.freedom {
             MotionFreedom::Along(axis) => Equation::Along(axis),
-            MotionFreedom::AboutZ => Equation::AboutZ,
+            MotionFreedom::AboutZ => Equation::About(Axis::Z),
         };
         pair(
             Owner::Motion(place),
@@ -211,7 +223,7 @@ pub(crate) fn name(form: Form) -> String {
             ..
         } => format!("{}i.{}j", axis(k), axis(l)),
         Form::Pair {
-            equation: Equation::AboutZ,
+            equation: Equation::About(_),
             ..
         } => "angle about Zj".to_owned(),
         Form::Function => "function".to_owned(),

@@ -18,6 +18,10 @@
 //! nearly singular velocity equations while I3 passes; a step of SI2 that fails is solved as I3, and
 //! so are the next few.
 //!
+//! Bristle deflections of LuGre follow from velocities and reactions in closed form (see
+//! `joint_friction`); the works of frictions, forces and motions are integrated by the same formula.
+//! Neither is an unknown of Newton's iteration, and works take no part in the error test.
+//!
 //! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
@@ -31,7 +35,7 @@ use crate::joint_friction::Memory;
 use crate::model::Level;
 use crate::rotation::Quaternion;
 use crate::state::{POSITIONS, State, VELOCITIES};
-use crate::system::{Rows, System};
+use crate::system::{Rows, System, Weights};
 
 /// How the constraints enter a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,6 +129,9 @@ pub(crate) struct Dynamics {
     pub(crate) multipliers: Vec<f64>,
     /// Friction memory before the last accepted step, for outputs within it.
     pub(crate) previous: Vec<Memory>,
+    /// Lengths that differences of bristle deflections count against.
+    bristle_scales: Vec<f64>,
+    powers: Vec<f64>,
     state: State,
     shift: Vec<f64>,
     impulses: Vec<f64>,
@@ -146,6 +153,8 @@ impl Dynamics {
         let n = system.velocity_count();
         let size = n + system.row_count();
         let bodies = system.model.bodies.len();
+        let mut state = State::new(0.0, vec![0.0; (POSITIONS + VELOCITIES) * bodies]);
+        state.extend(system.bristle_count(), system.work_count());
         Self {
             formulation: Formulation::Si2,
             present: Formulation::Si2,
@@ -156,10 +165,9 @@ impl Dynamics {
             work: Work::default(),
             multipliers: vec![0.0; system.row_count()],
             previous: system.history.frictions.clone(),
-            state: State {
-                time: 0.0,
-                values: vec![0.0; (POSITIONS + VELOCITIES) * bodies],
-            },
+            bristle_scales: vec![0.0; system.bristle_count()],
+            powers: vec![0.0; system.work_count()],
+            state,
             shift: vec![0.0; n],
             impulses: vec![0.0; system.row_count()],
             trial: vec![0.0; system.row_count()],
@@ -184,6 +192,7 @@ impl Dynamics {
         self.present = formulation;
         self.index3_left = 0;
         self.scales = scales;
+        self.system.write_bristle_scales(&mut self.bristle_scales);
         self.factored = None;
         self.rate = 0.0;
     }
@@ -253,7 +262,7 @@ impl Dynamics {
         self.work.residuals += 1;
         let n = self.system.velocity_count();
         let gamma = step.gamma;
-        let past = &step.history[POSITIONS * (n / VELOCITIES)..];
+        let past = &step.history[POSITIONS * (n / VELOCITIES)..self.state.motions()];
         for k in 0..n {
             self.change[k] = self.state.velocities()[k] - past[k];
         }
@@ -347,8 +356,9 @@ impl Dynamics {
             if renew {
                 self.factored = None;
                 self.work.factorisations += 1;
+                let weights = Weights::step(gamma);
                 self.system
-                    .assemble(rows, gamma, &self.change, &self.trial, &mut self.matrix);
+                    .assemble(rows, weights, &self.change, &self.trial, &mut self.matrix);
                 self.factors
                     .factor(&self.matrix)
                     .map_err(Failure::Singular)?;
@@ -409,9 +419,25 @@ impl Dynamics {
         Err(Failure::NotConverged { unknown: worst })
     }
 
+    /// What follows from the solved velocities and reactions: bristle deflections and works.
+    fn complete(&mut self, step: &bdf::Step<'_>) {
+        self.system.evaluate(&self.state, false);
+        let range = self.state.bristle_range();
+        let deflections = &mut self.state.values[range];
+        self.system
+            .write_bristles(&self.multipliers, Some(deflections), None);
+        self.system
+            .write_powers(&self.multipliers, &mut self.powers);
+        for (place, power) in self.state.work_range().zip(&self.powers) {
+            self.state.values[place] = step.history[place] + step.gamma * power;
+        }
+    }
+
     fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
         self.state.time = step.time;
         self.state.values.copy_from_slice(prediction);
+        let bristles = &step.history[self.state.bristle_range()];
+        self.system.set_bristles(bristles, step.gamma);
         self.shift.fill(0.0);
         for (impulse, multiplier) in self.impulses.iter_mut().zip(&self.multipliers) {
             *impulse = step.gamma * multiplier;
@@ -484,6 +510,7 @@ impl bdf::System for Dynamics {
         for (multiplier, impulse) in self.multipliers.iter_mut().zip(&self.impulses) {
             *multiplier = impulse / step.gamma;
         }
+        self.complete(step);
         y.copy_from_slice(&self.state.values);
         Ok(())
     }
@@ -501,8 +528,18 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
+        let bristles = &difference[self.state.bristle_range()];
+        for (d, scale) in bristles.iter().zip(&self.bristle_scales) {
+            if *scale > 0.0 {
+                norm = norm.max(d.abs() / scale);
+            }
+            if d.is_nan() {
+                return f64::NAN;
+            }
+        }
         if self.present == Formulation::Si2 {
-            for (k, d) in difference[POSITIONS * bodies..].iter().enumerate() {
+            let velocities = POSITIONS * bodies..self.state.motions();
+            for (k, d) in difference[velocities].iter().enumerate() {
                 let unit = if k % VELOCITIES < 3 {
                     length * rate
                 } else {
@@ -514,12 +551,11 @@ impl bdf::System for Dynamics {
         norm / self.tolerance
     }
 
-    fn accepted(&mut self, step: &bdf::Step<'_>, y: &[f64]) {
-        self.state.time = step.time;
-        self.state.values.copy_from_slice(y);
-        self.system.evaluate(&self.state, false);
+    fn accepted(&mut self, step: &bdf::Step<'_>, _: &[f64]) {
+        // The step solved last is the one accepted: everything is evaluated there.
         self.previous.clone_from(&self.system.history.frictions);
-        self.system.accept_frictions(step.size);
+        self.system.accept_frictions(&self.multipliers, step.size);
+        self.system.write_bristle_scales(&mut self.bristle_scales);
         self.system.remember_angles();
         self.scales.observe(self.state.velocities());
     }

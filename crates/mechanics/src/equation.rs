@@ -8,7 +8,11 @@
 //! axes    g = a_I · b_J          axes of I and of J; a torque along a_I × b_J
 //! ```
 //!
-//! and motions add the angle about z of J, `atan2(x_I · y_J, x_I · x_J)`.
+//! and motions and friction add angles,
+//!
+//! ```text
+//! about   g = ±atan2(a_I · b_J, c_I · d_J)     about z of J, or about a pin of a cross
+//! ```
 //!
 //! With a multiplier λ an equation applies to I the force and torque `λ ∂g/∂(δr_I, δθ_I)`, and to J
 //! `λ ∂g/∂(δr_J, δθ_J)`. The twelve local motions are `δr_I, δθ_I, δr_J, δθ_J`, rotations along
@@ -32,8 +36,41 @@ pub(crate) enum Equation {
     Along(usize),
     /// Axis of I times axis of J.
     Axes(usize, usize),
-    /// Angle about z of J.
-    AboutZ,
+    /// Angle of I against J.
+    About(Axis),
+}
+
+/// What an angle is about.
+///
+/// A hooke or universal joint has two pins at right angles, `p` fixed to I and `q` fixed to J. The
+/// angle about a pin is that of the part of I against the cross (about `p`), or of the cross against
+/// the part of J (about `q`), so that `ω_I − ω_J = θ̇_p p + θ̇_q q`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// z of J, which z of I is parallel to.
+    Z,
+    /// x of I, the pin of I of a hooke joint.
+    HookeI,
+    /// y of J, the pin of J of a hooke joint.
+    HookeJ,
+    /// z of I, the pin of I of a universal joint.
+    UniversalI,
+    /// z of J, the pin of J of a universal joint.
+    UniversalJ,
+}
+
+impl Axis {
+    /// Sign and axes (of I, of J) of sine and cosine: the other pin seen in axes that are fixed to
+    /// the part of this one. For a pin of I the part turns, not what is seen: the sign is negative.
+    const fn angle(self) -> (f64, [(usize, usize); 2]) {
+        match self {
+            Self::Z => (1.0, [(0, 1), (0, 0)]),
+            Self::HookeI => (-1.0, [(2, 1), (1, 1)]),
+            Self::HookeJ => (1.0, [(0, 0), (0, 2)]),
+            Self::UniversalI => (-1.0, [(1, 2), (0, 2)]),
+            Self::UniversalJ => (1.0, [(2, 1), (2, 0)]),
+        }
+    }
 }
 
 /// An equation at an instant.
@@ -67,7 +104,7 @@ impl Equation {
         match self {
             Self::Along(k) => along(i, j, k),
             Self::Axes(k, l) => axes(i, j, k, l),
-            Self::AboutZ => about_z(i, j),
+            Self::About(axis) => about(i, j, axis),
         }
     }
 
@@ -79,7 +116,7 @@ impl Equation {
         match self {
             Self::Along(k) => along_stiffness(i, j, k),
             Self::Axes(k, l) => axes_stiffness(i, j, k, l),
-            Self::AboutZ => about_z_stiffness(i, j),
+            Self::About(axis) => about_stiffness(i, j, axis),
         }
     }
 }
@@ -148,9 +185,10 @@ fn axes_stiffness(i: &MarkerFrame, j: &MarkerFrame, k: usize, l: usize) -> Local
     matrix
 }
 
-fn about_z(i: &MarkerFrame, j: &MarkerFrame) -> Row {
-    let sine = axes(i, j, 0, 1);
-    let cosine = axes(i, j, 0, 0);
+fn about(i: &MarkerFrame, j: &MarkerFrame, axis: Axis) -> Row {
+    let (sign, [sine, cosine]) = axis.angle();
+    let sine = axes(i, j, sine.0, sine.1);
+    let cosine = axes(i, j, cosine.0, cosine.1);
     let (s, c) = (sine.value, cosine.value);
     let r2 = s * s + c * c;
     let jacobian = (c * sine.jacobian - s * cosine.jacobian) / r2;
@@ -160,15 +198,16 @@ fn about_z(i: &MarkerFrame, j: &MarkerFrame) -> Row {
     let bias = (c * sine.bias - s * cosine.bias) / r2
         - 2.0 * (s * s_rate + c * c_rate) * (c * s_rate - s * c_rate) / (r2 * r2);
     Row {
-        value: s.atan2(c),
-        jacobian,
-        bias,
+        value: sign * s.atan2(c),
+        jacobian: sign * jacobian,
+        bias: sign * bias,
     }
 }
 
-fn about_z_stiffness(i: &MarkerFrame, j: &MarkerFrame) -> LocalMatrix {
-    let sine = axes(i, j, 0, 1);
-    let cosine = axes(i, j, 0, 0);
+fn about_stiffness(i: &MarkerFrame, j: &MarkerFrame, axis: Axis) -> LocalMatrix {
+    let (sign, [(k, l), (m, n)]) = axis.angle();
+    let sine = axes(i, j, k, l);
+    let cosine = axes(i, j, m, n);
     let (s, c) = (sine.value, cosine.value);
     let r2 = s * s + c * c;
     // δ(c/r²) and δ(s/r²), with δs and δc along their Jacobians.
@@ -176,9 +215,9 @@ fn about_z_stiffness(i: &MarkerFrame, j: &MarkerFrame) -> LocalMatrix {
     let d_r2 = 2.0 * (s * ds + c * dc);
     let by_sine = (dc - d_r2 * (c / r2)) / r2;
     let by_cosine = (ds - d_r2 * (s / r2)) / r2;
-    axes_stiffness(i, j, 0, 1) * (c / r2) - axes_stiffness(i, j, 0, 0) * (s / r2)
+    sign * (axes_stiffness(i, j, k, l) * (c / r2) - axes_stiffness(i, j, m, n) * (s / r2)
         + ds * by_sine.transpose()
-        - dc * by_cosine.transpose()
+        - dc * by_cosine.transpose())
 }
 
 #[cfg(test)]
@@ -209,13 +248,17 @@ mod tests {
         made
     }
 
-    const ALL: [Equation; 6] = [
+    const ALL: [Equation; 10] = [
         Equation::Along(0),
         Equation::Along(2),
         Equation::Axes(2, 0),
         Equation::Axes(0, 1),
         Equation::Axes(2, 2),
-        Equation::AboutZ,
+        Equation::About(Axis::Z),
+        Equation::About(Axis::HookeI),
+        Equation::About(Axis::HookeJ),
+        Equation::About(Axis::UniversalI),
+        Equation::About(Axis::UniversalJ),
     ];
 
     /// Central differences of `f` over the twelve motions at step 1e-5: truncation 1e-10 times the
@@ -250,6 +293,32 @@ mod tests {
             let stiffness = differences(gradient);
             let error = (stiffness - equation.stiffness(&i, &j)).norm();
             assert!(error < 1e-8, "{equation:?} {error}");
+        }
+    }
+
+    /// The rates about both pins of a cross add up to the relative angular velocity.
+    #[test]
+    fn the_angles_about_two_pins_make_the_relative_rotation() {
+        let [mut i, mut j] = frames(&Local::zeros());
+        for (p, q, pins) in [
+            (0, 1, [Axis::HookeI, Axis::HookeJ]),
+            (2, 2, [Axis::UniversalI, Axis::UniversalJ]),
+        ] {
+            // Turn J about an axis across both pins until they are perpendicular.
+            let across = i.axis(p).cross(&j.axis(q)).normalize();
+            let angle = i.axis(p).dot(&j.axis(q)).asin();
+            j.axes = Quaternion::exp(&(angle * across)).matrix() * j.axes;
+            assert!(i.axis(p).dot(&j.axis(q)).abs() < 1e-15);
+            let rates = [0.7, -1.9];
+            i.omega = j.omega + rates[0] * i.axis(p) + rates[1] * j.axis(q);
+            for ((pin, rate), axis) in pins.into_iter().zip(rates).zip([i.axis(p), j.axis(q)]) {
+                let row = Equation::About(pin).evaluate(&i, &j);
+                let found = row.jacobian.dot(&local_velocities(&i, &j));
+                assert!((found - rate).abs() < 1e-14, "{pin:?} {found} {rate}");
+                // A torque about the pin acts on I along it, and the opposite on J.
+                let torque = row.jacobian.fixed_rows::<3>(3);
+                assert!((torque - axis).norm() < 1e-14, "{pin:?}");
+            }
         }
     }
 

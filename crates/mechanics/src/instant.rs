@@ -5,7 +5,7 @@ use numerics::linear::{Matrix, Singular, SparseLu};
 use crate::constraint::Owner;
 use crate::model::{Label, Level};
 use crate::state::State;
-use crate::system::{Rows, System};
+use crate::system::{Rows, System, Weights};
 
 /// Newton iterations for reactions with friction before giving up.
 const ITERATIONS: usize = 50;
@@ -24,6 +24,12 @@ pub enum Failure {
     NotANumber {
         /// The element; none where it shows in the reactions first.
         element: Option<Label>,
+    },
+    /// Positions at which all forces balance were not found; the component of a body that lacks
+    /// most.
+    NoEquilibrium {
+        /// Place among the velocities.
+        unknown: usize,
     },
     /// A body would turn too far in one step.
     TurnsTooFar {
@@ -66,6 +72,8 @@ impl Instant {
         accelerations: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<(), Failure> {
+        system.set_statics(false);
+        system.set_bristles(&state.values[state.bristle_range()], 0.0);
         system.evaluate(state, false);
         let n = system.velocity_count();
         let mut last = f64::INFINITY;
@@ -111,7 +119,7 @@ impl Instant {
     fn factor(&mut self, system: &mut System, multipliers: &[f64]) -> Result<(), Failure> {
         system.assemble(
             Rows::Position,
-            0.0,
+            Weights::step(0.0),
             &self.zero,
             multipliers,
             &mut self.matrix,
@@ -160,6 +168,7 @@ impl Instant {
         length: f64,
     ) -> Result<(), Failure> {
         let n = system.velocity_count();
+        system.set_bristles(&state.values[state.bristle_range()], 0.0);
         system.evaluate(state, false);
         self.factor(system, multipliers)?;
         // One matrix serves: the corrections are of the size of the integration error.
@@ -258,7 +267,9 @@ impl System {
     pub fn element_of<'a>(&'a self, failure: &'a Failure) -> Option<&'a Label> {
         match failure {
             Failure::Singular(singular) => self.element_at(singular.row),
-            Failure::NotConverged { unknown } => self.element_at(*unknown),
+            Failure::NotConverged { unknown } | Failure::NoEquilibrium { unknown } => {
+                self.element_at(*unknown)
+            }
             Failure::NotANumber { element } => element.as_ref(),
             Failure::TurnsTooFar { body } => Some(&self.model.bodies[*body].label),
         }
@@ -315,6 +326,10 @@ impl System {
                 format!("Newton's iteration did not converge; {place} changed most{jam}")
             }
             Failure::NotANumber { element } => not_a_number(element.as_ref()),
+            Failure::NoEquilibrium { unknown } => format!(
+                "no equilibrium was found; what is left is largest at {}",
+                self.describe(*unknown)
+            ),
             Failure::TurnsTooFar { body } => {
                 format!(
                     "{} would turn too far in one step",

@@ -7,12 +7,12 @@ use numerics::linear::Matrix;
 use crate::expression::{Binary, Input, Operation, Program, Unary};
 use crate::measure::{Measure, Quantity};
 use crate::model::{
-    Body, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Level, Marker,
-    Model, Motion, MotionFreedom, SingleForce,
+    Axis, Body, ForceAndTorque, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart,
+    Label, Law, Level, Marker, Model, Motion, MotionFreedom, SingleForce,
 };
 use crate::rotation::Quaternion;
 use crate::state::State;
-use crate::system::{Rows, System};
+use crate::system::{Rows, System, Weights};
 
 fn label(statement: &'static str, id: usize) -> Label {
     Label {
@@ -69,7 +69,7 @@ fn of_time() -> Program {
     program
 }
 
-fn model() -> Model {
+fn model(law: &Law) -> Model {
     let bodies = 5;
     let mut model = Model {
         gravity: vector(99),
@@ -177,16 +177,26 @@ fn model() -> Model {
         });
     }
     let inputs = friction::Inputs::ALL;
+    let pin = friction::RevoluteLoad {
+        inputs,
+        pin_radius: 0.3,
+        friction_arm: 0.5,
+        bending_reaction_arm: 0.7,
+    };
+    let sleeve = friction::CylindricalLoad {
+        inputs,
+        pin_radius: 0.3,
+        bending_factor: 1.2,
+        initial_overlap: 3.0,
+        overlap_sign: -1.0,
+    };
     let loads = [
-        (
-            0,
-            FrictionJoint::Revolute(friction::RevoluteLoad {
-                inputs,
-                pin_radius: 0.3,
-                friction_arm: 0.5,
-                bending_reaction_arm: 0.7,
-            }),
-        ),
+        (2, FrictionJoint::Cylindrical(sleeve)),
+        (6, FrictionJoint::Pin(Axis::HookeI, pin)),
+        (6, FrictionJoint::Pin(Axis::HookeJ, pin)),
+        (7, FrictionJoint::Pin(Axis::UniversalI, pin)),
+        (7, FrictionJoint::Pin(Axis::UniversalJ, pin)),
+        (0, FrictionJoint::Revolute(pin)),
         (
             1,
             FrictionJoint::Translational(friction::TranslationalLoad {
@@ -209,19 +219,15 @@ fn model() -> Model {
         model.frictions.push(Friction {
             label: label("FRICTION", joint + 1),
             joint,
-            // A transition velocity that the random velocities lie below: creep and velocity both
-            // take part. The second pass of the test puts it far below them.
-            law: friction::Original {
-                mu_static: 0.4,
-                mu_dynamic: 0.3,
-                transition_velocity: 5.0,
-                transition_coefficient: 1.5,
-                max_deformation: 2.0,
-                effect: friction::Effect::All,
-            },
+            law: *law,
             load,
-            preload: 0.2,
-            maximum: 1e40,
+            preload: ForceAndTorque::both(0.2),
+            // The limit of the force is reached by some of the larger reactions.
+            maximum: ForceAndTorque {
+                force: 0.5,
+                torque: 1e40,
+            },
+            inactive_static: false,
         });
     }
     model
@@ -287,12 +293,33 @@ impl Residual {
     }
 }
 
-fn check(transition_velocity: f64, rows: Rows) {
-    let mut given = model();
-    for friction in &mut given.frictions {
-        friction.law.transition_velocity = transition_velocity;
-    }
-    let system = System::new(given);
+/// With a transition velocity that the random velocities lie below, creep and velocity both take
+/// part; with one far below them the joints slide.
+fn original(transition_velocity: f64) -> Law {
+    Law::Original(friction::Original {
+        mu_static: 0.4,
+        mu_dynamic: 0.3,
+        transition_velocity,
+        transition_coefficient: 1.5,
+        max_deformation: 2.0,
+        effect: friction::Effect::All,
+    })
+}
+
+fn bristles() -> Law {
+    Law::LuGre(friction::LuGre {
+        mu_static: 0.4,
+        mu_dynamic: 0.3,
+        bristle_stiffness: 2.0,
+        damping: 0.5,
+        viscous: 0.3,
+        stribeck_velocity: 2.0,
+        stribeck_exponent: 1.5,
+    })
+}
+
+fn check(law: &Law, rows: Rows) {
+    let system = System::new(model(law));
     let base = system.given_state(0.3);
     let n = system.velocity_count();
     let size = n + system.row_count();
@@ -310,6 +337,11 @@ fn check(transition_velocity: f64, rows: Rows) {
     let start: Vec<f64> = (0..size).map(|k| 0.3 * vector(k + 3)[0]).collect();
     residual.move_to(&start);
     residual.system.start_history();
+    let deflections: Vec<f64> = (0..residual.system.bristle_count())
+        .map(|k| 0.2 * vector(k + 5)[1])
+        .collect();
+    let gamma = residual.gamma;
+    residual.system.set_bristles(&deflections, gamma);
 
     let zero = vec![0.0; size];
     let (state, multipliers) = residual.move_to(&zero);
@@ -320,9 +352,13 @@ fn check(transition_velocity: f64, rows: Rows) {
         .map(|(u, p)| u - p)
         .collect();
     let mut matrix = Matrix::new(size);
-    residual
-        .system
-        .assemble(rows, residual.gamma, &w, &multipliers, &mut matrix);
+    residual.system.assemble(
+        rows,
+        Weights::step(residual.gamma),
+        &w,
+        &multipliers,
+        &mut matrix,
+    );
     let assembled = matrix.to_dense();
     for column in 0..size {
         let turns = column >= n || column % 6 < 3 || column / 6 != 4;
@@ -355,10 +391,15 @@ fn check(transition_velocity: f64, rows: Rows) {
 
 #[test]
 fn stuck_friction_and_velocity_rows() {
-    check(5.0, Rows::Velocity);
+    check(&original(5.0), Rows::Velocity);
 }
 
 #[test]
 fn sliding_friction_and_position_rows() {
-    check(0.05, Rows::Position);
+    check(&original(0.05), Rows::Position);
+}
+
+#[test]
+fn bristles_and_velocity_rows() {
+    check(&bristles(), Rows::Velocity);
 }

@@ -9,8 +9,8 @@
 //!
 //! ```
 //! use mechanics::model::{
-//!     Body, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Marker,
-//!     Model, SingleForce,
+//!     Body, ForceAndTorque, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart,
+//!     Label, Law, Marker, Model, SingleForce,
 //! };
 //! use mechanics::expression::Program;
 //! use mechanics::rotation::Quaternion;
@@ -55,14 +55,14 @@
 //!     frictions: vec![Friction {
 //!         label: label("FRICTION", 1),
 //!         joint: 0,
-//!         law: friction::Original {
+//!         law: Law::Original(friction::Original {
 //!             mu_static: 0.3,
 //!             mu_dynamic: 0.2,
 //!             transition_velocity: 0.1,
 //!             transition_coefficient: 1.5,
 //!             max_deformation: 0.01,
 //!             effect: friction::Effect::All,
-//!         },
+//!         }),
 //!         load: FrictionJoint::Translational(friction::TranslationalLoad {
 //!             inputs: friction::Inputs::ALL,
 //!             reaction_arm: 1.0,
@@ -70,8 +70,9 @@
 //!             initial_overlap: 1000.0,
 //!             overlap_sign: 0.0,
 //!         }),
-//!         preload: 0.0,
-//!         maximum: 1e40,
+//!         preload: ForceAndTorque::both(0.0),
+//!         maximum: ForceAndTorque::both(1e40),
+//!         inactive_static: false,
 //!     }],
 //!     gravity: Vector3::new(0.0, -10.0, 0.0),
 //!     ..Model::default()
@@ -82,14 +83,16 @@
 //! let snapshot = simulation.snapshot();
 //! // Push 10 less friction 0.2 · 2 · 10, over a mass of 2.
 //! assert!((snapshot.part_acceleration(0).linear.z - 3.0).abs() < 1e-12);
-//! assert!((snapshot.friction(0).force[0] + 4.0).abs() < 1e-12);
+//! assert!((snapshot.friction(0).force.z + 4.0).abs() < 1e-12);
 //! ```
 
 mod assembly;
 mod constraint;
 mod dynamics;
 mod equation;
+mod equilibrium;
 pub mod expression;
+mod gain;
 mod instant;
 #[cfg(test)]
 mod jacobian_test;
@@ -106,8 +109,10 @@ mod system;
 pub use assembly::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
 pub use constraint::Owner;
 pub use dynamics::{Formulation, Work};
+pub use equilibrium::{EquilibriumReport, EquilibriumSettings};
+pub use gain::Jam;
 pub use instant::Failure;
-pub use joint_friction::{Memory, Values as FrictionValues};
+pub use joint_friction::{Memory, SurfaceVector, Tally, Values as FrictionValues};
 pub use simulation::{
     Ending, Observer, RunError, Settings, Simulation, Statistics, StepReport, gravity_energy,
     kinetic_energy,

@@ -4,8 +4,11 @@
 //! consistency factor (`Force · UCF = Mass · Acceleration`), so that force = mass · acceleration.
 //! Angles are radians. Elements refer to one another by their place in the model's lists.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{Matrix3, Vector3};
 
+pub use crate::equation::Axis;
 use crate::expression::Program;
 use crate::measure::Measure;
 use crate::rotation::Quaternion;
@@ -218,18 +221,100 @@ pub enum FrictionJoint {
     Translational(friction::TranslationalLoad),
     /// Turning about z.
     Revolute(friction::RevoluteLoad),
+    /// Sliding along and turning about z.
+    Cylindrical(friction::CylindricalLoad),
     /// Turning about any axis.
     Spherical(friction::SphericalLoad),
+    /// Turning about one pin of a hooke or universal joint.
+    Pin(Axis, friction::RevoluteLoad),
 }
 
 impl FrictionJoint {
-    /// Arm that turns an angle into a displacement of the sliding surfaces; one for sliding.
+    /// Arm that turns an angle into a displacement of the sliding surfaces; one for sliding alone.
     #[must_use]
     pub fn arm(&self) -> f64 {
         match self {
             Self::Translational(_) => 1.0,
-            Self::Revolute(load) => load.pin_radius,
+            Self::Revolute(load) | Self::Pin(_, load) => load.pin_radius,
+            Self::Cylindrical(load) => load.pin_radius,
             Self::Spherical(load) => load.ball_radius,
+        }
+    }
+
+    /// Whether the load is a force, not a torque.
+    #[must_use]
+    pub fn has_force_load(&self) -> bool {
+        matches!(self, Self::Translational(_) | Self::Cylindrical(_))
+    }
+
+    /// Number of components of surface velocity, creep and bristle deflection.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        match self {
+            Self::Translational(_) | Self::Revolute(_) | Self::Pin(..) => 1,
+            Self::Cylindrical(_) => 2,
+            Self::Spherical(_) => 3,
+        }
+    }
+}
+
+/// The law of a friction: its FORMULATION.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// Stick-slip.
+    Original(friction::Original),
+    /// Bristles.
+    LuGre(friction::LuGre),
+}
+
+impl Law {
+    /// Regime at the speed of the sliding surfaces.
+    #[must_use]
+    pub fn regime(&self, speed: f64) -> friction::Regime {
+        match self {
+            Self::Original(law) => law.regime(speed),
+            Self::LuGre(law) => law.regime(speed),
+        }
+    }
+
+    /// The larger of its two coefficients.
+    #[must_use]
+    pub fn largest_coefficient(&self) -> f64 {
+        match self {
+            Self::Original(law) => law.mu_static.max(law.mu_dynamic),
+            Self::LuGre(law) => law.mu_static.max(law.mu_dynamic),
+        }
+    }
+}
+
+impl From<friction::Original> for Law {
+    fn from(law: friction::Original) -> Self {
+        Self::Original(law)
+    }
+}
+
+impl From<friction::LuGre> for Law {
+    fn from(law: friction::LuGre) -> Self {
+        Self::LuGre(law)
+    }
+}
+
+/// A number for the friction force and one for the friction torque of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceAndTorque {
+    /// Force: translational and cylindrical joints.
+    pub force: f64,
+    /// Torque: all but translational joints.
+    pub torque: f64,
+}
+
+impl ForceAndTorque {
+    /// The same number for both.
+    #[must_use]
+    pub const fn both(value: f64) -> Self {
+        Self {
+            force: value,
+            torque: value,
         }
     }
 }
@@ -242,13 +327,53 @@ pub struct Friction {
     /// The joint, by its place in [`Model::joints`].
     pub joint: usize,
     /// The law.
-    pub law: friction::Original,
+    pub law: Law,
     /// The load on the sliding surfaces.
     pub load: FrictionJoint,
-    /// Friction force or torque that acts without load, zero where switched off.
-    pub preload: f64,
+    /// Friction that acts without load, zero where switched off.
+    pub preload: ForceAndTorque,
     /// Limit of the part of the friction that the load causes.
-    pub maximum: f64,
+    pub maximum: ForceAndTorque,
+    /// Whether it is left out of static solutions.
+    pub inactive_static: bool,
+}
+
+impl Friction {
+    /// A load of its joint as a force at the sliding surfaces.
+    #[must_use]
+    pub fn surface_load(&self, load: &friction::Load) -> f64 {
+        if self.load.has_force_load() {
+            load.value
+        } else {
+            load.value / self.load.arm()
+        }
+    }
+
+    /// The larger of its preloads as a force at the sliding surfaces.
+    #[must_use]
+    pub fn surface_preload(&self) -> f64 {
+        let turning = self.preload.torque / self.load.arm();
+        match self.load {
+            FrictionJoint::Translational(_) => self.preload.force,
+            FrictionJoint::Cylindrical(_) => self.preload.force.max(turning),
+            _ => turning,
+        }
+    }
+}
+
+/// An element by its place in the lists of a [`Model`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Element {
+    /// A joint or joint primitive.
+    Joint(usize),
+    /// A motion.
+    Motion(usize),
+    /// A general constraint.
+    Constraint(usize),
+    /// A single-component force or spring-damper.
+    Force(usize),
+    /// A friction.
+    Friction(usize),
 }
 
 /// The whole model.
@@ -270,6 +395,22 @@ pub struct Model {
     pub frictions: Vec<Friction>,
     /// Quantities that functions read.
     pub measures: Vec<Measure>,
+    /// Elements that rest; a friction rests with its joint.
+    pub inactive: BTreeSet<Element>,
     /// Acceleration of gravity, ground axes.
     pub gravity: Vector3<f64>,
+}
+
+impl Model {
+    /// Whether an element acts.
+    #[must_use]
+    pub fn is_active(&self, element: Element) -> bool {
+        let rests = |element| self.inactive.contains(&element);
+        match element {
+            Element::Friction(place) => {
+                !(rests(element) || rests(Element::Joint(self.frictions[place].joint)))
+            }
+            _ => !rests(element),
+        }
+    }
 }

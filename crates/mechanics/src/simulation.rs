@@ -5,8 +5,10 @@ use numerics::bdf::{self, Bdf};
 
 use crate::assembly::{Assembly, AssemblyError};
 use crate::dynamics::{Dynamics, Formulation, Scales, Work};
+use crate::equilibrium::{EquilibriumReport, EquilibriumSettings, Statics};
+use crate::gain::{GainWatch, Jam};
 use crate::instant::{Failure, Instant};
-use crate::model::{Label, Model};
+use crate::model::{Element, Label, Model};
 use crate::rotation::Quaternion;
 use crate::snapshot::Snapshot;
 use crate::state::{POSITIONS, State, VELOCITIES};
@@ -114,6 +116,7 @@ struct Engine {
     before: Statistics,
     instant: Instant,
     dynamics: Dynamics,
+    gains: GainWatch,
     bdf: Bdf,
 }
 
@@ -124,6 +127,7 @@ impl Engine {
             before: simulation.statistics,
             instant: Instant::new(system),
             dynamics: Dynamics::new(system.clone(), simulation.scales),
+            gains: GainWatch::new(system),
             bdf: Bdf::new(simulation.state.values.len(), limits),
         }
     }
@@ -139,8 +143,10 @@ impl Simulation {
             length: system.length_scale(),
             rate: 1.0 / second,
         };
+        let mut state = system.given_state(0.0);
+        state.extend(system.bristle_count(), system.work_count());
         Self {
-            state: system.given_state(0.0),
+            state,
             accelerations: vec![0.0; system.velocity_count()],
             multipliers: Vec::new(),
             scales,
@@ -176,19 +182,89 @@ impl Simulation {
             .map_err(|failure| self.error(&failure))
     }
 
-    /// Replaces element parameters and functions; bodies, markers and joints must be the same.
+    /// Moves the model to an equilibrium at `time`, not before that of the state; forces and motions
+    /// are taken at that time. The velocities are then zero, creep is carried on.
+    ///
+    /// # Errors
+    /// [`RunError`] where none is found, naming the frictions that hold no more; the model is then
+    /// as it was.
+    pub fn find_equilibrium(
+        &mut self,
+        time: f64,
+        settings: &EquilibriumSettings,
+    ) -> Result<EquilibriumReport, RunError> {
+        let (kept, history) = (self.state.clone(), self.system.history.clone());
+        let reactions = self.multipliers.clone();
+        self.state.time = time;
+        self.state.velocities_mut().fill(0.0);
+        let bristles = self.state.bristle_range();
+        self.system.set_statics(true);
+        self.system.set_bristles(&self.state.values[bristles], 0.0);
+        self.system.evaluate(&self.state, false);
+        self.system.stick_all();
+        let solved = Statics::new(&self.system).solve(
+            &mut self.system,
+            &mut self.state,
+            &mut self.multipliers,
+            settings,
+            self.scales.length,
+        );
+        match solved {
+            Ok(report) => {
+                self.system.accept_frictions(&self.multipliers, 0.0);
+                self.system.remember_angles();
+                self.accelerations.fill(0.0);
+                Ok(report)
+            }
+            Err(failure) => {
+                let mut error = self.error(&failure);
+                if matches!(failure, Failure::NoEquilibrium { .. }) {
+                    let causes = self.system.explain_no_equilibrium(&self.multipliers);
+                    error.message = format!("{}; {causes}", error.message);
+                }
+                self.state = kept;
+                self.system.history = history;
+                self.multipliers = reactions;
+                self.system.set_statics(false);
+                self.system.evaluate(&self.state, false);
+                Err(error)
+            }
+        }
+    }
+
+    /// Replaces element parameters, functions and what is active; bodies, markers and joints must be
+    /// the same. Where other constraints are active than before, the model is assembled again from
+    /// where it stands.
+    ///
+    /// # Errors
+    /// [`AssemblyError`] where constraints that are active now contradict one another.
     ///
     /// # Panics
     /// When the numbering of the equations would change.
-    pub fn replace_model(&mut self, model: Model) {
-        if !self.system.replace_model(model) {
+    pub fn replace_model(&mut self, model: Model) -> Result<Option<Assembly>, AssemblyError> {
+        let constraints = |model: &Model| -> Vec<Element> {
+            let resting = model.inactive.iter().copied();
+            let free = |e: &Element| matches!(e, Element::Force(_) | Element::Friction(_));
+            resting.filter(|element| !free(element)).collect()
+        };
+        let same = constraints(&model) == constraints(self.model());
+        let same_active = model.inactive == self.model().inactive;
+        if !(self.system.replace_model(model) && same_active) {
             self.engine = None;
         }
+        if same {
+            return Ok(None);
+        }
+        let assembly = self.system.assemble_again(&mut self.state)?;
+        self.multipliers = vec![0.0; self.system.row_count()];
+        Ok(Some(assembly))
     }
 
     /// Puts the model into another state and history, such as one read from a file of results.
     pub fn set_state(&mut self, state: State, creep: &[[f64; 3]]) {
         self.state = state;
+        let (bristles, works) = (self.system.bristle_count(), self.system.work_count());
+        self.state.extend(bristles, works);
         self.system.evaluate(&self.state, false);
         self.system.start_history();
         for (memory, creep) in self.system.history.frictions.iter_mut().zip(creep) {
@@ -278,10 +354,14 @@ impl Simulation {
             before,
             instant,
             dynamics,
+            gains,
             bdf,
         } = engine;
         // Changed functions may have left the state off the constraints by rounding.
         self.settle(instant)?;
+        let jam = gains.look(&mut self.system, &self.multipliers);
+        self.refuse_jam(jam)?;
+        self.system.observe_loads(&self.multipliers);
         dynamics.start(&self.system, settings.formulation, self.scales);
         dynamics.tolerance = match settings.formulation {
             Formulation::Si2 => settings.error,
@@ -291,7 +371,7 @@ impl Simulation {
         dynamics.scales.observe(self.state.velocities());
         dynamics.multipliers.copy_from_slice(&self.multipliers);
         bdf.set_settings(limits);
-        let slope = slope(&self.state, &self.accelerations);
+        let slope = self.slope();
         let first = match settings.first_step {
             Some(first) => first,
             None => self.first_step(instant, dynamics, &slope, end, settings),
@@ -317,6 +397,7 @@ impl Simulation {
                 crossing = true;
                 continue;
             }
+            let jam = gains.look_seldom(&mut dynamics.system, &dynamics.multipliers);
             let report = StepReport {
                 time: bdf.time(),
                 size: bdf.last_size(),
@@ -334,6 +415,10 @@ impl Simulation {
             if !observer.step(&report) {
                 ending = Ending::Stopped;
             }
+            // After the outputs within the step, whose end is not good any more.
+            if let Ok(Some(jam)) = jam {
+                return Err(jammed(bdf.time(), &jam));
+            }
             // Only now: outputs within the step needed its past.
             if crossing && !dynamics.crosses() {
                 crossing = false;
@@ -347,6 +432,15 @@ impl Simulation {
         Ok(ending)
     }
 
+    /// A loop of friction and reaction without a sound solution at the present instant.
+    fn refuse_jam(&self, looked: Result<Option<Jam>, Failure>) -> Result<(), RunError> {
+        match looked {
+            Ok(Some(jam)) => Err(jammed(self.state.time, &jam)),
+            // What is singular is found and named when the step is solved.
+            Ok(None) | Err(_) => Ok(()),
+        }
+    }
+
     /// Starts the integrator anew from where it is, without its past.
     fn restart(
         &mut self,
@@ -358,7 +452,7 @@ impl Simulation {
         self.take(bdf, dynamics, bdf.time(), instant)?;
         dynamics.multipliers.copy_from_slice(&self.multipliers);
         let first = 1e-3 * settings.longest_step;
-        let slope = slope(&self.state, &self.accelerations);
+        let slope = self.slope();
         bdf.start(self.state.time, &self.state.values, &slope, first);
         Ok(())
     }
@@ -449,6 +543,9 @@ impl Simulation {
         later.state.time += ahead;
         let step: Vec<f64> = self.state.velocities().iter().map(|u| u * ahead).collect();
         later.state.displace(&step);
+        for place in later.state.bristle_range() {
+            later.state.values[place] += ahead * slope[place];
+        }
         let velocities = later.state.velocities_mut().iter_mut();
         for (u, a) in velocities.zip(&self.accelerations) {
             *u += ahead * a;
@@ -461,13 +558,37 @@ impl Simulation {
                 &mut later.multipliers,
             )
             .ok()?;
-        let half_curvature: Vec<f64> = self::slope(&later.state, &later.accelerations)
+        let half_curvature: Vec<f64> = later
+            .slope()
             .iter()
             .zip(slope)
             .map(|(b, a)| 0.5 * (b - a) / ahead)
             .collect();
         let error = bdf::System::norm(dynamics, &half_curvature);
         error.is_finite().then_some(error)
+    }
+
+    /// Time derivative of the integrator's vector, at the instant solved last.
+    fn slope(&mut self) -> Vec<f64> {
+        let (state, values) = (&self.state, &self.state.values);
+        let mut slope = Vec::with_capacity(values.len());
+        for (body, u) in state.velocities().chunks_exact(VELOCITIES).enumerate() {
+            slope.extend_from_slice(&u[..3]);
+            let half = Quaternion {
+                w: 0.0,
+                v: 0.5 * Vector3::from_column_slice(&u[3..]),
+            };
+            let rate = half.times(&state.orientation(body));
+            slope.extend_from_slice(&[rate.w, rate.v.x, rate.v.y, rate.v.z]);
+        }
+        slope.extend_from_slice(&self.accelerations);
+        let (bristles, works) = (state.bristle_range(), state.work_range());
+        slope.resize(values.len(), 0.0);
+        self.system
+            .write_bristles(&self.multipliers, None, Some(&mut slope[bristles]));
+        self.system
+            .write_powers(&self.multipliers, &mut slope[works]);
+        slope
     }
 
     fn run_error(&self, error: &bdf::Error<Failure>) -> RunError {
@@ -493,6 +614,18 @@ impl Simulation {
     }
 }
 
+fn jammed(time: f64, jam: &Jam) -> RunError {
+    RunError {
+        time,
+        message: format!(
+            "{} jams: the friction that a load causes adds {:.3} times as much to that load, a gain \
+             of one or more; no motion obeys Coulomb's law here",
+            jam.friction, jam.gain
+        ),
+        element: Some(jam.friction.clone()),
+    }
+}
+
 fn total(before: &Statistics, steps: bdf::Statistics, work: Work) -> Statistics {
     Statistics {
         steps: bdf::Statistics {
@@ -507,22 +640,6 @@ fn total(before: &Statistics, steps: bdf::Statistics, work: Work) -> Statistics 
             index3_steps: before.work.index3_steps + work.index3_steps,
         },
     }
-}
-
-/// Time derivative of the integrator's vector.
-fn slope(state: &State, accelerations: &[f64]) -> Vec<f64> {
-    let mut slope = Vec::with_capacity(state.values.len());
-    for (body, u) in state.velocities().chunks_exact(VELOCITIES).enumerate() {
-        slope.extend_from_slice(&u[..3]);
-        let half = Quaternion {
-            w: 0.0,
-            v: 0.5 * Vector3::from_column_slice(&u[3..]),
-        };
-        let rate = half.times(&state.orientation(body));
-        slope.extend_from_slice(&[rate.w, rate.v.x, rate.v.y, rate.v.z]);
-    }
-    slope.extend_from_slice(accelerations);
-    slope
 }
 
 /// Kinetic energy of the bodies, in the model's unit of energy.

@@ -1,8 +1,9 @@
 //! Where the bodies are and how they move.
 //!
 //! The integrator's vector holds seven numbers of position a body (centre of mass in ground, unit
-//! quaternion of the part) and then six of velocity a body (velocity of the centre of mass and
-//! angular velocity, both along ground axes).
+//! quaternion of the part), then six of velocity a body (velocity of the centre of mass and angular
+//! velocity, both along ground axes), then the bristle deflections of LuGre frictions, and last the
+//! works of frictions, forces and motions.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,15 +20,56 @@ pub const VELOCITIES: usize = 6;
 pub struct State {
     /// Time.
     pub time: f64,
-    /// Positions, then velocities; see the module's description.
+    /// Positions, velocities, bristle deflections and works; see the module's description.
     pub values: Vec<f64>,
+    bodies: usize,
+    bristles: usize,
 }
 
 impl State {
+    /// A state from positions and then velocities of its bodies.
+    #[must_use]
+    pub fn new(time: f64, values: Vec<f64>) -> Self {
+        Self {
+            time,
+            bodies: values.len() / (POSITIONS + VELOCITIES),
+            bristles: 0,
+            values,
+        }
+    }
+
+    /// Appends bristle deflections and works, all zero.
+    pub(crate) fn extend(&mut self, bristles: usize, works: usize) {
+        self.bristles = bristles;
+        let size = self.motions() + bristles + works;
+        self.values.resize(size, 0.0);
+    }
+
     /// Number of bodies.
     #[must_use]
     pub fn bodies(&self) -> usize {
-        self.values.len() / (POSITIONS + VELOCITIES)
+        self.bodies
+    }
+
+    /// How many of the values are positions and velocities.
+    pub(crate) fn motions(&self) -> usize {
+        (POSITIONS + VELOCITIES) * self.bodies
+    }
+
+    /// Places of the bristle deflections among the values.
+    pub(crate) fn bristle_range(&self) -> std::ops::Range<usize> {
+        self.motions()..self.motions() + self.bristles
+    }
+
+    /// Places of the works among the values.
+    pub(crate) fn work_range(&self) -> std::ops::Range<usize> {
+        self.motions() + self.bristles..self.values.len()
+    }
+
+    /// Works so far: what each friction took out, then what forces and what motions put in.
+    #[must_use]
+    pub fn works(&self) -> &[f64] {
+        &self.values[self.work_range()]
     }
 
     /// Centre of mass of a body in ground.
@@ -45,13 +87,13 @@ impl State {
     /// Velocities of all bodies, six each.
     #[must_use]
     pub fn velocities(&self) -> &[f64] {
-        &self.values[self.bodies() * POSITIONS..]
+        &self.values[self.bodies * POSITIONS..self.motions()]
     }
 
     /// Velocities of all bodies, six each.
     pub fn velocities_mut(&mut self) -> &mut [f64] {
-        let bodies = self.bodies();
-        &mut self.values[bodies * POSITIONS..]
+        let range = self.bodies * POSITIONS..self.motions();
+        &mut self.values[range]
     }
 
     /// Displaces all bodies: six numbers a body, `δr` and the small rotation `δθ`, ground axes.

@@ -3,7 +3,8 @@
 //! A binary of its own, because it counts with a global allocator.
 
 use mechanics::model::{
-    Body, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Marker, Model,
+    Body, ForceAndTorque, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Law,
+    Marker, Model,
 };
 use mechanics::rotation::Quaternion;
 use mechanics::{Formulation, Observer, Settings, Simulation, Snapshot, StepReport};
@@ -68,22 +69,23 @@ fn chain() -> Model {
         model.frictions.push(Friction {
             label: label("FRICTION", id),
             joint: k,
-            law: friction::Original {
+            law: Law::Original(friction::Original {
                 mu_static: 0.2,
                 mu_dynamic: 0.15,
                 transition_velocity: 0.05,
                 transition_coefficient: 1.5,
                 max_deformation: 0.01,
                 effect: friction::Effect::All,
-            },
+            }),
             load: FrictionJoint::Revolute(friction::RevoluteLoad {
                 inputs: friction::Inputs::ALL,
                 pin_radius: 0.02,
                 friction_arm: 0.02,
                 bending_reaction_arm: 0.1,
             }),
-            preload: 0.0,
-            maximum: 1e40,
+            preload: ForceAndTorque::both(0.0),
+            maximum: ForceAndTorque::both(1e40),
+            inactive_static: false,
         });
     }
     model

@@ -17,7 +17,7 @@ use numerics::linear::Singular;
 pub use report::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
 
 use crate::constraint::{Form, codirected_axes, name};
-use crate::model::Level;
+use crate::model::{Element, Level};
 use crate::state::State;
 use crate::system::System;
 use least_change::{Least, REGULARISATION};
@@ -85,7 +85,7 @@ impl System {
             velocities[6 * place + 3..6 * place + 6]
                 .copy_from_slice(body.angular_velocity.as_slice());
         }
-        State { time, values }
+        State::new(time, values)
     }
 
     /// Brings `state` onto the constraints with as little change as needed, finds redundant
@@ -94,24 +94,41 @@ impl System {
     /// # Errors
     /// [`AssemblyError`] where the constraints contradict one another.
     pub fn assemble_initial(&mut self, state: &mut State) -> Result<Assembly, AssemblyError> {
+        self.history.angles.fill(0.0);
+        let starts = self.starts();
+        let weights = [self.position_weights(), self.velocity_weights()];
+        let assembly = self.assemble_all(state, &starts, &weights)?;
+        self.start_history();
+        Ok(assembly)
+    }
+
+    /// The same during a run, after elements were activated or deactivated: nothing that was given
+    /// at the start counts, and the history goes on.
+    pub(crate) fn assemble_again(&mut self, state: &mut State) -> Result<Assembly, AssemblyError> {
+        let equal = vec![1.0; self.velocity_count()];
+        self.assemble_all(state, &[], &[equal.clone(), equal])
+    }
+
+    fn assemble_all(
+        &mut self,
+        state: &mut State,
+        starts: &[Start],
+        [positions, velocities]: &[Vec<f64>; 2],
+    ) -> Result<Assembly, AssemblyError> {
         let given = state.clone();
         let length = self.length_scale();
         let all = vec![true; self.constraints.len()];
         self.set_active(&all);
-        self.history.angles.fill(0.0);
-        let starts = self.starts();
-        let exact = self.position_weights();
-        let iterations = self.assemble_positions(state, &starts, &exact, length)?;
+        let iterations = self.assemble_positions(state, starts, positions, length)?;
         let (active, order) = self.independent(length);
         // Velocities that contradict one another show only with the redundant equations.
-        self.assemble_velocities(state, &starts, length)?;
+        self.assemble_velocities(state, starts, velocities, length)?;
         self.set_active(&active);
         // What inaccurate redundant equations left over is now removed from the others.
-        self.assemble_positions(state, &starts, &exact, length)?;
+        self.assemble_positions(state, starts, positions, length)?;
         self.check_directions()?;
         let not_unique = self.not_unique(&active, length)?;
-        self.assemble_velocities(state, &starts, length)?;
-        self.start_history();
+        self.assemble_velocities(state, starts, velocities, length)?;
         let redundant = order
             .into_iter()
             .filter(|&place| !active[place])
@@ -221,6 +238,7 @@ impl System {
         &mut self,
         state: &mut State,
         starts: &[Start],
+        weights: &[f64],
         length: f64,
     ) -> Result<(), AssemblyError> {
         self.evaluate(state, false);
@@ -240,11 +258,10 @@ impl System {
             .for_each(|(_, v)| *v /= length);
         let right: Vec<f64> = rows.iter().map(|row| row.rate).collect();
         let mut least = Least::new(n, rows.len());
-        let weights = self.velocity_weights();
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let size = largest(&wanted).max(largest(&right));
         let solve = |least: &mut Least, wanted: &[f64], right: &[f64]| {
-            let solved = least.solve(&rows, &weights, wanted, right, REGULARISATION);
+            let solved = least.solve(&rows, weights, wanted, right, REGULARISATION);
             solved.map_err(|singular| self.out_of_scale(singular))
         };
         let mut velocities = solve(&mut least, &wanted, &right)?;
@@ -287,6 +304,7 @@ impl System {
         let constraints = self.constraints.iter().zip(&self.evaluated);
         constraints
             .filter(|(constraint, _)| constraint.row.is_none())
+            .filter(|(constraint, _)| self.model.is_active(constraint.owner.element()))
             .filter_map(move |(constraint, evaluated)| {
                 let (scale, quantity) = rows::scale_of(constraint.form, evaluated, length);
                 let error = match constraint.level {
@@ -313,7 +331,10 @@ impl System {
 
     /// The equations of a joint also hold with opposite axes; that is not what the joint means.
     fn check_directions(&self) -> Result<(), AssemblyError> {
-        for joint in &self.model.joints {
+        for (place, joint) in self.model.joints.iter().enumerate() {
+            if !self.model.is_active(Element::Joint(place)) {
+                continue;
+            }
             let (i, j) = (self.marker(joint.i), self.marker(joint.j));
             for &axis in codirected_axes(joint.kind) {
                 if i.axis(axis).dot(&j.axis(axis)) < 0.0 {

@@ -13,7 +13,7 @@ use crate::system::System;
 const RANK_TOLERANCE: f64 = 1e-5;
 
 impl System {
-    /// Which equations to keep: those of joints that lock most come first, so that the equation
+    /// Which of the equations in force to keep, and in what order they were tried: those of joints that lock most come first, so that the equation
     /// dropped is that of the element that is most likely meant as the extra one.
     pub(super) fn independent(&mut self, length: f64) -> (Vec<bool>, Vec<usize>) {
         let count = |owner: Owner| self.constraints.iter().filter(|c| c.owner == owner).count();
@@ -21,6 +21,7 @@ impl System {
             .constraints
             .iter()
             .enumerate()
+            .filter(|(_, c)| c.row.is_some())
             .map(|(place, c)| {
                 let rank = match c.owner {
                     Owner::Joint(_) => 6 - count(c.owner).min(6),
@@ -35,7 +36,8 @@ impl System {
         let n = self.velocity_count();
         let full: Vec<Vec<f64>> = order
             .iter()
-            .map(|&(_, place)| expand(&rows[place], n))
+            .filter_map(|&(_, place)| self.constraints[place].row)
+            .map(|row| expand(&rows[row], n))
             .collect();
         let kept = independent_rows(&full, RANK_TOLERANCE);
         let mut active = vec![false; self.constraints.len()];
@@ -55,13 +57,19 @@ impl System {
         let all: Vec<bool> = vec![true; active.len()];
         self.set_active(&all);
         let rows = self.assembly_rows(&[], length);
+        // Equations of elements at rest have no row, and take no part.
+        let row_of: Vec<Option<usize>> = self.constraints.iter().map(|c| c.row).collect();
         self.set_active(active);
-        let dropped: Vec<usize> = (0..active.len()).filter(|&place| !active[place]).collect();
+        let places = |wanted: bool| -> Vec<(usize, usize)> {
+            let rows = row_of.iter().enumerate();
+            let rows = rows.filter_map(|(place, row)| row.map(|row| (place, row)));
+            rows.filter(|(place, _)| active[*place] == wanted).collect()
+        };
+        let (dropped, kept) = (places(false), places(true));
         if dropped.is_empty() || self.model.frictions.is_empty() {
             return Ok(Vec::new());
         }
-        let kept: Vec<usize> = (0..active.len()).filter(|&place| active[place]).collect();
-        let kept_rows: Vec<&Row> = kept.iter().map(|&place| &rows[place]).collect();
+        let kept_rows: Vec<&Row> = kept.iter().map(|&(_, row)| &rows[row]).collect();
         let mut touched = vec![false; self.model.joints.len()];
         let mut touch = |place: usize| {
             if let Owner::Joint(joint) = self.constraints[place].owner {
@@ -69,13 +77,13 @@ impl System {
             }
         };
         let mut least = Least::new(n, kept.len());
-        for &place in &dropped {
+        for &(place, row) in &dropped {
             touch(place);
             // The dropped row as a combination of kept ones: rest + Gᵀ c = row, G rest = 0.
             let coefficients = least
-                .combination(&kept_rows, &expand(&rows[place], n))
+                .combination(&kept_rows, &expand(&rows[row], n))
                 .map_err(|singular| self.out_of_scale(singular))?;
-            for (&place, c) in kept.iter().zip(coefficients) {
+            for (&(place, _), c) in kept.iter().zip(coefficients) {
                 if c.abs() > 1e-6 {
                     touch(place);
                 }

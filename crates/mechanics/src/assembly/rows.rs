@@ -2,8 +2,8 @@
 
 use super::report::Unmet;
 use crate::constraint::{Evaluated, Form, name};
-use crate::equation::Equation;
-use crate::model::{Label, Level, MotionFreedom};
+use crate::equation::{Axis, Equation};
+use crate::model::{Element, Label, Level, MotionFreedom};
 use crate::system::System;
 
 /// What an error of a constraint equation is.
@@ -37,10 +37,13 @@ pub(super) struct Row {
 impl System {
     pub(super) fn starts(&self) -> Vec<Start> {
         let mut starts = Vec::new();
-        for joint in &self.model.joints {
+        for (place, joint) in self.model.joints.iter().enumerate() {
+            if !self.model.is_active(Element::Joint(place)) {
+                continue;
+            }
             let given = [
                 (Equation::Along(2), joint.translation_start),
-                (Equation::AboutZ, joint.rotation_start),
+                (Equation::About(Axis::Z), joint.rotation_start),
             ];
             for (equation, start) in given {
                 if start.displacement.is_some() || start.velocity.is_some() {
@@ -59,11 +62,14 @@ impl System {
             .model
             .motions
             .iter()
-            .filter(|m| m.level != Level::Position)
+            .enumerate()
+            .filter(|(place, _)| self.model.is_active(Element::Motion(*place)))
+            .map(|(_, motion)| motion)
+            .filter(|motion| motion.level != Level::Position)
         {
             let equation = match motion.freedom {
                 MotionFreedom::Along(axis) => Equation::Along(axis),
-                MotionFreedom::AboutZ => Equation::AboutZ,
+                MotionFreedom::AboutZ => Equation::About(Axis::Z),
             };
             starts.push(Start {
                 equation,

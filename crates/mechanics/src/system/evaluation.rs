@@ -2,7 +2,7 @@
 
 use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
-use crate::equation::{Equation, Local, local_velocities};
+use crate::equation::{Axis, Equation, Local, local_velocities};
 use crate::expression::Input;
 use crate::measure::{self, Order, Quantity};
 use crate::model::Level;
@@ -99,7 +99,7 @@ impl System {
             match constraint.level {
                 Level::Position => {
                     value -= drive.value;
-                    if equation == Equation::AboutZ {
+                    if equation == Equation::About(Axis::Z) {
                         value = nearest_turn(value, 0.0);
                     }
                     rate = drive.rate;

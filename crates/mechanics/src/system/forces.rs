@@ -7,7 +7,7 @@ use super::evaluation::read;
 use super::single_force::direction;
 use crate::equation::Local;
 use crate::expression::Program;
-use crate::model::SingleForce;
+use crate::model::{Element, SingleForce};
 use crate::state::MarkerFrame;
 
 impl System {
@@ -45,12 +45,18 @@ impl System {
             }
         }
         for place in 0..self.model.forces.len() {
+            if !self.model.is_active(Element::Force(place)) {
+                continue;
+            }
             let (i, j) = self.force_markers(place);
             let value = self.force_value(place);
             let direction = direction(self.model.forces[place].kind, &i, &j);
             self.add_local(&[i.body, j.body], &(value * direction), out);
         }
         for place in 0..self.model.frictions.len() {
+            if !self.friction_acts(place) {
+                continue;
+            }
             let (element, i, j) = self.friction(place, multipliers);
             self.add_local(&[i.body, j.body], &element.force, out);
         }

@@ -18,20 +18,23 @@
 //!
 //! At `γ = 0` it is the matrix of the instantaneous accelerations and reactions.
 
+mod bristles;
 mod evaluation;
 mod forces;
 mod newton_matrix;
 mod reactions;
 mod single_force;
+mod works;
 
 use crate::constraint::{Constraint, Evaluated, Form, Owner, list};
 use crate::equation::Equation;
 use crate::expression::Input;
-use crate::joint_friction::{Contribution, Memory, Share};
+use crate::joint_friction::{BristlePast, Contribution, Memory, Share};
 use crate::measure::Quantity;
-use crate::model::Model;
+use crate::model::{Element, Model};
 use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
+pub(crate) use newton_matrix::Weights;
 
 /// Which equations the constraint rows of the Newton matrix belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +63,10 @@ pub struct System {
     pub(crate) rows: Vec<usize>,
     /// Contributions to the reaction of each friction's joint.
     reactions: Vec<Vec<Contribution>>,
+    /// What is known of each friction's bristles before the instant is solved.
+    bristles: Vec<BristlePast>,
+    /// Whether the instant is a static one, where some frictions rest.
+    statics: bool,
     /// What happened so far, as of the last accepted step.
     pub(crate) history: History,
     pub(crate) bodies: Vec<BodyFrame>,
@@ -130,6 +137,8 @@ impl System {
             needed,
             rows: Vec::new(),
             reactions,
+            bristles: vec![BristlePast::default(); model.frictions.len()],
+            statics: false,
             history,
             constraints,
             evaluated,
@@ -181,10 +190,16 @@ impl System {
         free.saturating_sub(self.rows.len())
     }
 
-    /// Chooses the constraint equations in force.
+    /// What makes up the reaction of a friction's joint.
+    pub(crate) fn contributions(&self, friction: usize) -> &[Contribution] {
+        &self.reactions[friction]
+    }
+
+    /// Chooses the constraint equations in force, among those of active elements.
     pub(crate) fn set_active(&mut self, active: &[bool]) {
         self.rows.clear();
         for (place, (constraint, &active)) in self.constraints.iter_mut().zip(active).enumerate() {
+            let active = active && self.model.is_active(constraint.owner.element());
             constraint.row = active.then_some(self.rows.len());
             if active {
                 self.rows.push(place);
@@ -225,35 +240,52 @@ impl System {
             "a changed model must keep the numbering of its equations"
         );
         let active: Vec<bool> = self.constraints.iter().map(|c| c.row.is_some()).collect();
-        let history = std::mem::take(&mut self.history);
-        *self = fresh;
+        let before = std::mem::replace(self, fresh);
+        self.bodies = before.bodies;
+        self.time = before.time;
         self.set_active(&active);
-        self.history = history;
+        self.history = before.history;
+        // Friction that was at rest begins anew.
+        for place in 0..self.model.frictions.len() {
+            let element = Element::Friction(place);
+            if self.model.is_active(element) && !before.model.is_active(element) {
+                let fresh = self.fresh_memory(place);
+                self.history.frictions[place] = self.history.frictions[place].renewed(fresh);
+            }
+        }
         same_pattern
     }
 
     /// Friction and angles start anew where the bodies stand: stuck without creep.
     pub(crate) fn start_history(&mut self) {
-        self.history.frictions = self
-            .model
-            .frictions
-            .iter()
-            .map(|friction| {
-                let joint = &self.model.joints[friction.joint];
-                Memory::at(friction, &self.marker(joint.i), &self.marker(joint.j))
-            })
-            .collect();
+        self.history.frictions.clear();
+        for place in 0..self.model.frictions.len() {
+            let memory = self.fresh_memory(place);
+            self.history.frictions.push(memory);
+        }
         self.history.angles.fill(0.0);
         self.remember_angles();
     }
 
-    /// Takes over the present displacements and velocities of the joints as accepted ones, after a
-    /// step of length `size`.
-    pub(crate) fn accept_frictions(&mut self, size: f64) {
-        for (place, friction) in self.model.frictions.iter().enumerate() {
-            let joint = &self.model.joints[friction.joint];
-            let (i, j) = (self.marker(joint.i), self.marker(joint.j));
-            self.history.frictions[place].accept(friction, &i, &j, size);
+    fn fresh_memory(&self, place: usize) -> Memory {
+        let friction = &self.model.frictions[place];
+        let joint = &self.model.joints[friction.joint];
+        let (i, j) = (self.marker(joint.i), self.marker(joint.j));
+        Memory::at(friction, self.time, &i, &j)
+    }
+
+    /// Says whether the instants that follow are static ones.
+    pub(crate) fn set_statics(&mut self, statics: bool) {
+        self.statics = statics;
+    }
+
+    /// Stick begins anew, without creep, where friction slides.
+    pub(crate) fn stick_all(&mut self) {
+        for place in 0..self.model.frictions.len() {
+            if !self.history.frictions[place].stuck {
+                let fresh = self.fresh_memory(place);
+                self.history.frictions[place] = self.history.frictions[place].renewed(fresh);
+            }
         }
     }
 

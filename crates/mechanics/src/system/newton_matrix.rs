@@ -9,8 +9,39 @@ use crate::constraint::Form;
 use crate::equation::{Local, LocalMatrix};
 use crate::expression::Input;
 use crate::joint_friction::Share;
-use crate::model::Level;
+use crate::model::{Element, Level};
 use crate::rotation::skew;
+
+/// What the parts of the Newton matrix are multiplied with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Weights {
+    /// The mass matrix.
+    pub(crate) mass: f64,
+    /// Derivatives by velocity.
+    pub(crate) velocity: f64,
+    /// Derivatives by position.
+    pub(crate) position: f64,
+}
+
+impl Weights {
+    /// Those of a step with `δx = γ δu`; at zero those of an instant.
+    pub(crate) fn step(gamma: f64) -> Self {
+        Self {
+            mass: 1.0,
+            velocity: gamma,
+            position: gamma * gamma,
+        }
+    }
+
+    /// Those of an equilibrium: the stiffness, with a part of mass and damping added.
+    pub(crate) fn equilibrium(stability: f64) -> Self {
+        Self {
+            mass: stability,
+            velocity: stability,
+            position: 1.0,
+        }
+    }
+}
 
 impl System {
     /// Builds the Newton matrix of the module's description at the state evaluated last with
@@ -18,13 +49,38 @@ impl System {
     pub(crate) fn assemble(
         &mut self,
         rows: Rows,
-        gamma: f64,
+        weights: Weights,
+        w: &[f64],
+        multipliers: &[f64],
+        matrix: &mut Matrix,
+    ) {
+        self.assemble_without_friction(rows, weights, w, multipliers, matrix);
+        self.assemble_frictions(weights, multipliers, matrix);
+        matrix.compress();
+    }
+
+    /// The matrix of an instant as if friction did not depend on the reactions.
+    pub(crate) fn assemble_frictionless_instant(
+        &mut self,
+        zero: &[f64],
+        multipliers: &[f64],
+        matrix: &mut Matrix,
+    ) {
+        let weights = Weights::step(0.0);
+        self.assemble_without_friction(Rows::Position, weights, zero, multipliers, matrix);
+        matrix.compress();
+    }
+
+    fn assemble_without_friction(
+        &mut self,
+        rows: Rows,
+        weights: Weights,
         w: &[f64],
         multipliers: &[f64],
         matrix: &mut Matrix,
     ) {
         matrix.start();
-        self.assemble_bodies(gamma, w, matrix);
+        self.assemble_bodies(weights, w, matrix);
         let n = self.velocity_count();
         for (row, &place) in self.rows.iter().enumerate() {
             let evaluated = &self.evaluated[place];
@@ -35,27 +91,29 @@ impl System {
                 for k in 0..6 {
                     let g = evaluated.jacobian[block][k];
                     let change = evaluated.rate_change[block][k];
-                    let rate = if moves { gamma * change } else { 0.0 };
+                    let rate = if moves {
+                        weights.velocity * change
+                    } else {
+                        0.0
+                    };
                     matrix.add(n + row, 6 * body + k, g + rate);
                     matrix.add(6 * body + k, n + row, -g);
                 }
             }
             if let Form::Pair { i, j, .. } = constraint.form {
                 let sides = [i, j].map(|m| self.model.markers[m].body);
-                let scale = -gamma * gamma * multipliers[row];
+                let scale = -weights.position * multipliers[row];
                 self.add_local_matrix(&sides, &evaluated.stiffness, scale, matrix);
             }
         }
-        self.assemble_forces(gamma, matrix);
-        self.assemble_frictions(gamma, multipliers, matrix);
-        matrix.compress();
+        self.assemble_forces(weights, matrix);
     }
 
-    fn assemble_bodies(&self, gamma: f64, w: &[f64], matrix: &mut Matrix) {
+    fn assemble_bodies(&self, weights: Weights, w: &[f64], matrix: &mut Matrix) {
         for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
             let first = 6 * place;
             for k in 0..3 {
-                matrix.add(first + k, first + k, body.mass);
+                matrix.add(first + k, first + k, weights.mass * body.mass);
             }
             let inertia = frame.inertia;
             // δ(I w) = δθ × I w − I (δθ × w), the turning of the inertia with the body.
@@ -65,7 +123,8 @@ impl System {
             // Q = −ω × I ω
             let by_omega: Matrix3<f64> = skew(&(inertia * omega)) - skew(&omega) * inertia;
             let by_theta = -skew(&omega) * turning(&omega);
-            let block = inertia + gamma * (turning(&w) - by_omega) - gamma * gamma * by_theta;
+            let block = weights.mass * inertia + weights.velocity * (turning(&w) - by_omega)
+                - weights.position * by_theta;
             for r in 0..3 {
                 for c in 0..3 {
                     matrix.add(first + 3 + r, first + 3 + c, block[(r, c)]);
@@ -74,15 +133,18 @@ impl System {
         }
     }
 
-    fn assemble_forces(&mut self, gamma: f64, matrix: &mut Matrix) {
+    fn assemble_forces(&mut self, weights: Weights, matrix: &mut Matrix) {
         for place in 0..self.model.forces.len() {
+            if !self.model.is_active(Element::Force(place)) {
+                continue;
+            }
             let (i, j) = self.force_markers(place);
             let value = self.force_value(place);
             let force = &self.model.forces[place];
             let direction = direction(force.kind, &i, &j);
             let turning = direction_stiffness(force.kind, &i, &j);
             let sides = [i.body, j.body];
-            self.add_local_matrix(&sides, &turning, -gamma * gamma * value, matrix);
+            self.add_local_matrix(&sides, &turning, -weights.position * value, matrix);
             force
                 .function
                 .gradient(&self.registers, &mut self.adjoints, |input, slope| {
@@ -94,8 +156,8 @@ impl System {
                         .zip(&self.measure_slopes[measure]);
                     for (&body, slopes) in motions {
                         for k in 0..6 {
-                            let change =
-                                slope * (gamma * gamma * slopes[k] + gamma * slopes[6 + k]);
+                            let change = slope
+                                * (weights.position * slopes[k] + weights.velocity * slopes[6 + k]);
                             for (side, on) in sides.iter().enumerate() {
                                 let Some(on) = *on else { continue };
                                 for r in 0..6 {
@@ -109,15 +171,18 @@ impl System {
         }
     }
 
-    fn assemble_frictions(&self, gamma: f64, multipliers: &[f64], matrix: &mut Matrix) {
+    fn assemble_frictions(&self, weights: Weights, multipliers: &[f64], matrix: &mut Matrix) {
         let n = self.velocity_count();
         for place in 0..self.model.frictions.len() {
+            if !self.model.is_active(Element::Friction(place)) {
+                continue;
+            }
             let (element, i, j) = self.friction(place, multipliers);
             let sides = [i.body, j.body];
             let turning = element.by_reaction.fixed_columns::<3>(3)
                 * self.moment_change(place, &i, &j, multipliers);
-            let moving =
-                gamma * element.by_velocity + gamma * gamma * (element.by_position + turning);
+            let moving = weights.velocity * element.by_velocity
+                + weights.position * (element.by_position + turning);
             self.add_local_matrix(&sides, &moving, -1.0, matrix);
             for contribution in &self.reactions[place] {
                 let Some(row) = self.constraints[contribution.constraint].row else {

@@ -6,6 +6,7 @@ use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::equation::Equation;
 use crate::joint_friction::{self, Element, Share};
+use crate::model::Element as ModelElement;
 use crate::rotation::skew;
 use crate::snapshot::Wrench;
 use crate::state::MarkerFrame;
@@ -88,7 +89,7 @@ impl System {
     }
 
     /// Direction along the axes of J of the moment that an equation between axes applies to I.
-    pub(super) fn moment_axis(&self, constraint: usize, j: &MarkerFrame) -> Vector3<f64> {
+    pub(crate) fn moment_axis(&self, constraint: usize, j: &MarkerFrame) -> Vector3<f64> {
         j.axes.transpose() * self.evaluated[constraint].local.fixed_rows::<3>(3)
     }
 
@@ -122,6 +123,12 @@ impl System {
         change
     }
 
+    /// Whether a friction acts at the present kind of instant.
+    pub(super) fn friction_acts(&self, place: usize) -> bool {
+        let rests = self.statics && self.model.frictions[place].inactive_static;
+        !rests && self.model.is_active(ModelElement::Friction(place))
+    }
+
     /// Friction element `place` with derivatives, and the frames of its joint's markers.
     pub(crate) fn friction(
         &self,
@@ -131,10 +138,14 @@ impl System {
         let friction = &self.model.frictions[place];
         let joint = &self.model.joints[friction.joint];
         let (i, j) = (self.marker(joint.i), self.marker(joint.j));
+        if !self.friction_acts(place) {
+            return (Element::AT_REST, i, j);
+        }
         let (force, moment) = self.reaction(place, &j, multipliers);
         let memory = &self.history.frictions[place];
-        let element =
-            joint_friction::evaluate(friction, memory, &i, &j, force.into(), moment.into());
+        let bristles = self.bristle_past(place);
+        let (force, moment) = (force.into(), moment.into());
+        let element = joint_friction::evaluate(friction, memory, bristles, &i, &j, force, moment);
         (element, i, j)
     }
 }

@@ -3,8 +3,8 @@
 use mechanics::expression::{Binary, Input, Operation, Program};
 use mechanics::measure::{Measure, Quantity};
 use mechanics::model::{
-    Body, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Level, Marker,
-    Model, Motion, MotionFreedom, SingleForce,
+    Body, ForceAndTorque, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label,
+    Law, Level, Marker, Model, Motion, MotionFreedom, SingleForce,
 };
 use mechanics::rotation::Quaternion;
 use nalgebra::{Matrix3, Vector3};
@@ -212,15 +212,16 @@ impl Builder {
         });
     }
 
-    pub(crate) fn friction(&mut self, joint: usize, law: friction::Original, load: FrictionJoint) {
+    pub(crate) fn friction(&mut self, joint: usize, law: impl Into<Law>, load: FrictionJoint) {
         let label = Self::label("FRICTION", self.model.frictions.len());
         self.model.frictions.push(Friction {
             label,
             joint,
-            law,
+            law: law.into(),
             load,
-            preload: 0.0,
-            maximum: 1e40,
+            preload: ForceAndTorque::both(0.0),
+            maximum: ForceAndTorque::both(1e40),
+            inactive_static: false,
         });
     }
 }

@@ -64,7 +64,7 @@ fn rod_on_a_pin_with_friction_meets_the_reference() {
         };
         let simulation = assembled(pendulum.model());
         let (radial, tangential) = radial_and_tangential(&simulation, pendulum.angle);
-        let torque = simulation.snapshot().friction(0).force[0];
+        let torque = simulation.snapshot().friction(0).torque.z;
         assert!(torque * rate < 0.0, "friction brakes");
         claims.push(case.values(
             &format!("θ″, T, N radial, N tangential of state {}", n + 1),

@@ -3,7 +3,7 @@
 
 use friction::Regime;
 use mechanics::Formulation;
-use mechanics::model::{FrictionJoint, Model};
+use mechanics::model::{FrictionJoint, Law, Model};
 use mechanics::rotation::Quaternion;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -67,17 +67,24 @@ fn in_millimetres(mut model: Model) -> Model {
         body.inertia *= 1e6;
     }
     for friction in &mut model.frictions {
-        friction.law.transition_velocity *= 1e3;
-        friction.law.max_deformation *= 1e3;
+        let Law::Original(law) = &mut friction.law else {
+            panic!("the model has stick-slip friction only")
+        };
+        law.transition_velocity *= 1e3;
+        law.max_deformation *= 1e3;
         match &mut friction.load {
             FrictionJoint::Translational(load) => {
                 load.reaction_arm *= 1e3;
                 load.initial_overlap *= 1e3;
             }
-            FrictionJoint::Revolute(load) => {
+            FrictionJoint::Revolute(load) | FrictionJoint::Pin(_, load) => {
                 load.pin_radius *= 1e3;
                 load.friction_arm *= 1e3;
                 load.bending_reaction_arm *= 1e3;
+            }
+            FrictionJoint::Cylindrical(load) => {
+                load.pin_radius *= 1e3;
+                load.initial_overlap *= 1e3;
             }
             FrictionJoint::Spherical(load) => load.ball_radius *= 1e3,
         }
@@ -218,10 +225,13 @@ fn friction_takes_energy() {
                 let stored = model.frictions.iter().enumerate().map(|(k, friction)| {
                     let values = s.friction(k);
                     let stuck = values.regime == Regime::Stuck;
-                    let load = values.load.value / friction.load.arm();
-                    let most =
-                        0.6875 * friction.law.mu_static * load * friction.law.max_deformation;
-                    if stuck { most } else { 0.0 }
+                    let load = friction.surface_load(&values.load);
+                    match friction.law {
+                        Law::Original(law) if stuck => {
+                            0.6875 * law.mu_static * load * law.max_deformation
+                        }
+                        _ => 0.0,
+                    }
                 });
                 elastic = elastic.max(stored.sum());
             },

@@ -63,7 +63,7 @@ fn creep_that_reaches_its_limit() {
     let exact = |key: &str| number(&file, &format!("/cases/b_incline_rest_clamp/{key}"));
     let block = Block::new(law(0.6, 0.5, 0.1, 0.001));
     let long = run(block.model(), &[60.0], &error(1e-10), |_| {});
-    let creep = long.snapshot().friction(0).creep[0] / 0.001;
+    let creep = long.snapshot().friction(0).creep.translation.z / 0.001;
     let ratio = number(&file, "/cases/a_incline_launch/equilibrium_creep_over_dmax");
     let case = Case {
         section: Section::Law,
@@ -135,7 +135,7 @@ fn block_held_on_a_slope() {
         let mut block = gentle_slope();
         block.slope = slope;
         let end = run(block.model(), &[100.0], &long, |_| {});
-        creep.push(end.snapshot().friction(0).creep[0]);
+        creep.push(end.snapshot().friction(0).creep.translation.z);
     }
     claims.push(case.values(
         "creep at 5, 10, 15, 16.5° [m]",
@@ -166,7 +166,7 @@ fn slider_that_stops() {
     times.extend((1..=1000).map(|k| entry + 5e-4 * f64::from(k)));
     let mut seen = Vec::new();
     run(block.model(), &times, &error(1e-10), |s| {
-        seen.push((place(s), speed(s), s.friction(0).creep[0]));
+        seen.push((place(s), speed(s), s.friction(0).creep.translation.z));
     });
     let creep: Vec<f64> = seen[2..].iter().map(|s| s.2).collect();
     let samples: Vec<Sample> = seen[2..]
@@ -235,10 +235,11 @@ fn slow_drive() {
         -crate::runs::assembled(b.model.clone())
             .snapshot()
             .friction(0)
-            .force[0],
+            .force
+            .z,
     ];
     run(b.model, &table.map(|(x, _)| x / 0.02), &error(1e-8), |s| {
-        ours.push(-s.friction(0).force[0]);
+        ours.push(-s.friction(0).force.z);
     });
     let mut exact = vec![10.953_6];
     exact.extend(table.map(|(_, friction)| friction));

@@ -51,7 +51,7 @@ fn end_of(case: &Value, transition_velocity: f64, max_deformation: f64) -> (f64,
         |_| {},
     );
     let snapshot = simulation.snapshot();
-    (place(&snapshot), snapshot.friction(0).force[0])
+    (place(&snapshot), snapshot.friction(0).force.z)
 }
 
 /// Id, model, name in the file, arguments.
@@ -241,7 +241,7 @@ fn guides_that_bend() {
                 // The friction where it stands: the overlap grows with the displacement.
                 let overlap = 0.5 + overlap_sign * place(s);
                 let exact = 0.25 * (2.0 * 9.80665 + 3.0 / overlap);
-                force = force.max((s.friction(0).force[0] + exact).abs());
+                force = force.max((s.friction(0).force.z + exact).abs());
                 k += 1;
             });
             errors.push(worst);

@@ -2,7 +2,7 @@
 
 use friction::{Inputs, Original, TranslationalLoad};
 use mechanics::Snapshot;
-use mechanics::model::{FrictionJoint, JointKind, Model};
+use mechanics::model::{ForceAndTorque, FrictionJoint, JointKind, Model};
 use nalgebra::Vector3;
 
 use crate::builder::{Builder, v};
@@ -68,8 +68,8 @@ impl Block {
         b.model.bodies[block].velocity = v(self.velocity, 0.0, 0.0);
         b.model.bodies[block].given_velocity = [true; 6];
         b.friction(joint, self.law, FrictionJoint::Translational(self.load));
-        b.model.frictions[0].preload = self.preload;
-        b.model.frictions[0].maximum = self.maximum;
+        b.model.frictions[0].preload = ForceAndTorque::both(self.preload);
+        b.model.frictions[0].maximum = ForceAndTorque::both(self.maximum);
         b
     }
 

@@ -1,0 +1,311 @@
+//! Static equilibrium: positions and reactions at which nothing accelerates.
+//!
+//! ```text
+//! Q(x) + f(x, λ) + Gᵀλ = 0,   g(x) = 0        at rest
+//! ```
+//!
+//! by Newton's method on the same matrix as the dynamics, with its mass and velocity parts reduced
+//! to a small multiple (STABILITY), which decides where the stiffness does not: bodies that may turn
+//! freely stay as they are. Steps are limited, and shortened until the imbalance falls. Where the
+//! forces would do negative work along a step, it leads to an unstable equilibrium; the multiple is
+//! then raised until the step follows the forces.
+//!
+//! Friction holds by its creep, whose anchor is where the joint stood: the stiffness of the law. The
+//! bristles of LuGre keep their deflection, as any deflection is steady at rest.
+
+use nalgebra::Vector3;
+use numerics::linear::{Matrix, SparseLu};
+
+use crate::instant::Failure;
+use crate::model::{Element, Law, Level};
+use crate::state::{State, VELOCITIES};
+use crate::system::{Rows, System, Weights};
+
+/// How an equilibrium is found: the EQUILIBRIUM statement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquilibriumSettings {
+    /// ERROR: largest change of a displacement (length) or rotation (radians) in the last iteration.
+    pub error: f64,
+    /// IMBALANCE: largest force (or torque) left over.
+    pub imbalance: f64,
+    /// STABILITY: part of mass and damping that is added to the stiffness.
+    pub stability: f64,
+    /// MAXIT: most iterations.
+    pub iterations: usize,
+    /// ALIMIT: largest rotation of a body in an iteration, radians.
+    pub angle_limit: f64,
+    /// TLIMIT: largest displacement of a body in an iteration, length.
+    pub translation_limit: f64,
+}
+
+/// An equilibrium that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquilibriumReport {
+    /// Iterations that it took.
+    pub iterations: usize,
+    /// Largest force or torque left over.
+    pub imbalance: f64,
+}
+
+/// Further iterations while they still improve a solution that is accurate enough.
+const POLISHING: usize = 3;
+/// Halvings of a step before the multiple of the mass is raised instead.
+const HALVINGS: usize = 10;
+/// Smallest and largest multiple when it is raised.
+const STABILITIES: [f64; 2] = [1e-6, 1e12];
+/// A joint whose friction uses this part of its coefficient is at its limit.
+const SATURATED: f64 = 0.99;
+
+/// Storage of the iteration.
+pub(crate) struct Statics {
+    matrix: Matrix,
+    factors: SparseLu,
+    right: Vec<f64>,
+    change: Vec<f64>,
+    zero: Vec<f64>,
+}
+
+impl Statics {
+    pub(crate) fn new(system: &System) -> Self {
+        let n = system.velocity_count();
+        let size = n + system.row_count();
+        Self {
+            matrix: Matrix::new(size),
+            factors: SparseLu::new(),
+            right: vec![0.0; size],
+            change: vec![0.0; size],
+            zero: vec![0.0; n],
+        }
+    }
+
+    /// Moves `state` (at rest) to an equilibrium; `length` is typical of the model.
+    pub(crate) fn solve(
+        &mut self,
+        system: &mut System,
+        state: &mut State,
+        multipliers: &mut [f64],
+        settings: &EquilibriumSettings,
+        length: f64,
+    ) -> Result<EquilibriumReport, Failure> {
+        let mut stability = settings.stability;
+        let mut polished = 0;
+        let mut moved = f64::INFINITY;
+        for iteration in 0..settings.iterations {
+            let merit = self.residual(system, state, multipliers, length)?;
+            let imbalance = self.imbalance(system);
+            let balanced = imbalance <= settings.imbalance && moved <= settings.error;
+            let report = EquilibriumReport {
+                iterations: iteration,
+                imbalance,
+            };
+            if balanced && polished == POLISHING {
+                return Ok(report);
+            }
+            let step = self.step(
+                system,
+                state,
+                multipliers,
+                settings,
+                &mut stability,
+                merit,
+                length,
+            );
+            match step {
+                Ok(size) => moved = size,
+                // No step makes it better: rounding where it is good enough already.
+                Err(_) if balanced => return Ok(report),
+                Err(failure) => return Err(failure),
+            }
+            polished += usize::from(balanced);
+        }
+        Err(Failure::NoEquilibrium {
+            unknown: self.largest(system),
+        })
+    }
+
+    /// One step: Newton's, limited and shortened, or with more of the mass. Returns its size.
+    fn step(
+        &mut self,
+        system: &mut System,
+        state: &mut State,
+        multipliers: &mut [f64],
+        settings: &EquilibriumSettings,
+        stability: &mut f64,
+        merit: f64,
+        length: f64,
+    ) -> Result<f64, Failure> {
+        let n = system.velocity_count();
+        let residual = self.right.clone();
+        let (start, start_multipliers) = (state.clone(), multipliers.to_vec());
+        system.evaluate(state, true);
+        loop {
+            let weights = Weights::equilibrium(*stability);
+            system.assemble(
+                Rows::Position,
+                weights,
+                &self.zero,
+                &start_multipliers,
+                &mut self.matrix,
+            );
+            let solved = self.factors.factor(&self.matrix);
+            self.change.copy_from_slice(&residual);
+            if solved.is_ok() {
+                self.factors.solve(&mut self.change);
+            }
+            let work: f64 = (0..n).map(|k| self.change[k] * residual[k]).sum();
+            let fine = solved.is_ok() && self.change.iter().all(|c| c.is_finite());
+            // Work against the unbalanced forces, beyond what meeting the constraints takes.
+            let uphill = work < 0.0 && self.constrained(&residual, length);
+            if fine && !uphill {
+                let limit = self.limit(settings, n);
+                let mut part = limit;
+                for _ in 0..HALVINGS {
+                    let step: Vec<f64> = self.change[..n].iter().map(|c| part * c).collect();
+                    state.clone_from(&start);
+                    state.displace(&step);
+                    for (row, multiplier) in multipliers.iter_mut().enumerate() {
+                        *multiplier = start_multipliers[row] + part * self.change[n + row];
+                    }
+                    let trial = self.residual(system, state, multipliers, length)?;
+                    if trial < (1.0 - 1e-4 * part) * merit {
+                        *stability = (0.1 * *stability).max(settings.stability);
+                        return Ok(largest_of(&step));
+                    }
+                    part *= 0.5;
+                }
+            }
+            *stability = (10.0 * *stability).max(STABILITIES[0]);
+            if *stability > STABILITIES[1] {
+                state.clone_from(&start);
+                multipliers.copy_from_slice(&start_multipliers);
+                self.residual(system, state, multipliers, length)?;
+                return Err(Failure::NoEquilibrium {
+                    unknown: self.largest(system),
+                });
+            }
+            state.clone_from(&start);
+            multipliers.copy_from_slice(&start_multipliers);
+            system.evaluate(state, true);
+        }
+    }
+
+    /// Whether the constraints are met so well that the work of a step is that of the forces.
+    fn constrained(&self, residual: &[f64], length: f64) -> bool {
+        residual[self.zero.len()..]
+            .iter()
+            .all(|error| error.abs() <= 1e-6 * length)
+    }
+
+    /// Part of the step that the limits leave.
+    fn limit(&self, settings: &EquilibriumSettings, n: usize) -> f64 {
+        let mut part = 1.0_f64;
+        for body in self.change[..n].chunks_exact(VELOCITIES) {
+            let moved = Vector3::from_column_slice(&body[..3]).norm();
+            let turned = Vector3::from_column_slice(&body[3..]).norm();
+            part = part
+                .min(settings.translation_limit / moved.max(1e-300))
+                .min(settings.angle_limit / turned.max(1e-300));
+        }
+        part
+    }
+
+    /// Unbalanced forces and unmet constraints at `state`; returns their size, which falls along
+    /// Newton's step.
+    fn residual(
+        &mut self,
+        system: &mut System,
+        state: &State,
+        multipliers: &[f64],
+        length: f64,
+    ) -> Result<f64, Failure> {
+        let n = system.velocity_count();
+        system.evaluate(state, false);
+        system.forces(multipliers, &mut self.right[..n]);
+        for (row, &place) in system.rows.iter().enumerate() {
+            let level = system.constraints[place].level;
+            let error = system.evaluated[place].error;
+            self.right[n + row] = if level == Level::Position {
+                -error
+            } else {
+                0.0
+            };
+        }
+        if self.right.iter().any(|r| !r.is_finite()) {
+            return Err(Failure::NotANumber {
+                element: system.find_not_a_number(),
+            });
+        }
+        let weight = system.weight_scale(multipliers);
+        let forces = self.right[..n].chunks_exact(VELOCITIES).map(|body| {
+            let force = Vector3::from_column_slice(&body[..3]).norm() / weight;
+            let torque = Vector3::from_column_slice(&body[3..]).norm() / (weight * length);
+            force * force + torque * torque
+        });
+        let errors = self.right[n..].iter().map(|e| (e / length) * (e / length));
+        Ok((forces.sum::<f64>() + errors.sum::<f64>()).sqrt())
+    }
+
+    /// Largest force or torque left over.
+    fn imbalance(&self, system: &System) -> f64 {
+        largest_of(&self.right[..system.velocity_count()])
+    }
+
+    fn largest(&self, system: &System) -> usize {
+        (0..system.velocity_count())
+            .max_by(|&a, &b| self.right[a].abs().total_cmp(&self.right[b].abs()))
+            .unwrap_or(0)
+    }
+}
+
+fn largest_of(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
+}
+
+impl System {
+    /// A force that is typical of the instant: the weights and reactions.
+    fn weight_scale(&self, multipliers: &[f64]) -> f64 {
+        let weights = self.model.bodies.iter().map(|body| body.mass);
+        let weight = weights.sum::<f64>() * self.model.gravity.norm();
+        weight.max(largest_of(multipliers)).max(1e-12)
+    }
+
+    /// What may keep the model from an equilibrium, for the message of a failure.
+    pub(crate) fn explain_no_equilibrium(&self, multipliers: &[f64]) -> String {
+        let mut causes = Vec::new();
+        for (place, friction) in self.model.frictions.iter().enumerate() {
+            if !self.model.is_active(Element::Friction(place)) {
+                continue;
+            }
+            let label = &friction.label;
+            if friction.inactive_static {
+                causes.push(format!(
+                    "{label} is INACTIVE in static solutions and holds nothing"
+                ));
+                continue;
+            }
+            match &friction.law {
+                Law::Original(law) => {
+                    let values = self.friction(place, multipliers).0.values;
+                    if values.mu.norm() >= SATURATED * law.mu_static {
+                        causes.push(format!(
+                            "{label} is saturated: its load calls for more than MU_STATIC = {}",
+                            law.mu_static
+                        ));
+                    }
+                }
+                Law::LuGre(_) => causes.push(format!(
+                    "{label} is LUGRE, whose bristles keep their deflection in static solutions \
+                     and take up no further load"
+                )),
+            }
+        }
+        if causes.is_empty() {
+            causes.push(
+                "likely causes: a part that is free to move under a constant force, or forces that \
+                 drive the model"
+                    .to_owned(),
+            );
+        }
+        causes.join("; ")
+    }
+}

@@ -1,0 +1,179 @@
+//! The gain of friction: how much load a friction that a load causes brings about.
+//!
+//! With the friction `f_k = φ_k N_k` of each joint (`φ_k` its direction and coefficient in steady
+//! motion) the reactions of the reduced system answer a unit load on friction `k` with
+//!
+//! ```text
+//! A_lk = dN_l/dλ · dλ/df · φ_k       from  M δa − Gᵀ δλ = φ_k,  G δa = 0
+//! ```
+//!
+//! and the loads are `N = (1 − A)⁻¹ N₀`. Where an eigenvalue of `A` reaches one, loads grow without
+//! bound: the joint jams, or has no or several solutions (Painlevé 1895). Beyond it the equations
+//! still have a solution, with which no machine moves; so it is reported, never integrated.
+
+use nalgebra::DMatrix;
+use numerics::linear::{Matrix, SparseLu};
+
+use crate::instant::Failure;
+use crate::joint_friction::Share;
+use crate::model::{Element, Label};
+use crate::system::System;
+
+/// A friction whose gain is one or more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jam {
+    /// The friction.
+    pub friction: Label,
+    /// The gain: the largest real eigenvalue of the loop.
+    pub gain: f64,
+}
+
+/// Bound of the gains from which on every step is looked at.
+const LOOK_ALWAYS: f64 = 0.5;
+/// Steps between two looks at most.
+const LONGEST_INTERVAL: f64 = 1000.0;
+
+/// Finds gains, with storage of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct GainWatch {
+    matrix: Matrix,
+    factors: SparseLu,
+    zero: Vec<f64>,
+    right: Vec<f64>,
+    gains: DMatrix<f64>,
+    /// Steps until the next look.
+    wait: usize,
+}
+
+impl GainWatch {
+    pub(crate) fn new(system: &System) -> Self {
+        let n = system.velocity_count();
+        let size = n + system.row_count();
+        let frictions = system.model.frictions.len();
+        Self {
+            matrix: Matrix::new(size),
+            factors: SparseLu::new(),
+            zero: vec![0.0; n],
+            right: vec![0.0; size],
+            gains: DMatrix::zeros(frictions, frictions),
+            wait: 0,
+        }
+    }
+
+    /// Looks at the instant evaluated last, if it is time to: often where gains are large, seldom
+    /// where geometry and coefficients leave them far from one.
+    pub(crate) fn look_seldom(
+        &mut self,
+        system: &mut System,
+        multipliers: &[f64],
+    ) -> Result<Option<Jam>, Failure> {
+        if self.wait > 0 {
+            self.wait -= 1;
+            return Ok(None);
+        }
+        self.look(system, multipliers)
+    }
+
+    /// Looks at the instant evaluated last.
+    pub(crate) fn look(
+        &mut self,
+        system: &mut System,
+        multipliers: &[f64],
+    ) -> Result<Option<Jam>, Failure> {
+        if system.model.frictions.is_empty() {
+            self.wait = usize::MAX;
+            return Ok(None);
+        }
+        let bound = self.gains(system, multipliers)?;
+        let interval = (LOOK_ALWAYS / bound).powi(2).clamp(1.0, LONGEST_INTERVAL);
+        self.wait = interval as usize - 1;
+        if bound < 1.0 {
+            return Ok(None);
+        }
+        let eigenvalues = self.gains.complex_eigenvalues();
+        let real = eigenvalues.iter().filter(|value| value.im == 0.0);
+        let gain = real.fold(f64::NEG_INFINITY, |m, value| m.max(value.re));
+        if gain < 1.0 {
+            return Ok(None);
+        }
+        // The friction that takes the largest part in the loop.
+        let worst = (0..self.gains.nrows())
+            .max_by(|&a, &b| self.gains[(a, a)].total_cmp(&self.gains[(b, b)]))
+            .unwrap_or(0);
+        Ok(Some(Jam {
+            friction: system.model.frictions[worst].label.clone(),
+            gain,
+        }))
+    }
+
+    /// Fills the matrix of gains; returns a bound of its eigenvalues, whatever way the joints slide
+    /// and however little of their coefficient they use.
+    fn gains(&mut self, system: &mut System, multipliers: &[f64]) -> Result<f64, Failure> {
+        let n = system.velocity_count();
+        system.assemble_frictionless_instant(&self.zero, multipliers, &mut self.matrix);
+        self.factors
+            .factor(&self.matrix)
+            .map_err(Failure::Singular)?;
+        let frictions = system.model.frictions.len();
+        self.gains.fill(0.0);
+        let mut bound = 0.0_f64;
+        for k in 0..frictions {
+            if !system.model.is_active(Element::Friction(k)) {
+                continue;
+            }
+            let (element, i, j) = system.friction(k, multipliers);
+            self.right.fill(0.0);
+            for (side, body) in [i.body, j.body].into_iter().enumerate() {
+                if let Some(body) = body {
+                    for r in 0..6 {
+                        self.right[6 * body + r] += element.by_load[6 * side + r];
+                    }
+                }
+            }
+            self.factors.solve(&mut self.right);
+            let mut sum = 0.0;
+            for l in 0..frictions {
+                let gain = system.load_change(l, multipliers, &self.right[n..]);
+                self.gains[(l, k)] = gain;
+                sum += gain.abs();
+            }
+            // What is left of the coefficient may come yet; without any, the way it would act is
+            // unknown, and the next step is looked at.
+            bound = bound.max(if element.steady_coefficient > 0.0 {
+                sum * system.model.frictions[k].law.largest_coefficient()
+                    / element.steady_coefficient
+            } else if element.load_by_reaction.iter().any(|slope| *slope != 0.0) {
+                LOOK_ALWAYS
+            } else {
+                0.0
+            });
+        }
+        Ok(bound)
+    }
+}
+
+impl System {
+    /// Change of the load of a friction with the multipliers.
+    fn load_change(&self, place: usize, multipliers: &[f64], change: &[f64]) -> f64 {
+        if !self.model.is_active(Element::Friction(place)) {
+            return 0.0;
+        }
+        let (element, _, j) = self.friction(place, multipliers);
+        let slopes = element.load_by_reaction;
+        let mut sum = 0.0;
+        for contribution in self.contributions(place) {
+            let Some(row) = self.constraints[contribution.constraint].row else {
+                continue;
+            };
+            sum += change[row]
+                * match contribution.share {
+                    Share::Force(axis) => slopes[axis],
+                    Share::Moment => {
+                        let axis = self.moment_axis(contribution.constraint, &j);
+                        slopes[3] * axis.x + slopes[4] * axis.y + slopes[5] * axis.z
+                    }
+                };
+        }
+        sum
+    }
+}

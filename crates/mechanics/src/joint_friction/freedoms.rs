@@ -1,0 +1,243 @@
+//! Friction of joints whose freedoms are displacements and angles: one of them, or both at once.
+
+use friction::{
+    Bristles, Coefficient, Resultant, bristle_resultant, cylindrical_bristle_resultant,
+    cylindrical_resultant, resultant,
+};
+use nalgebra::{SMatrix, Vector3};
+
+use super::response::{Joining, Response, respond};
+use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
+use crate::equation::{Equation, Local, LocalMatrix, local_velocities};
+use crate::model::{Axis, Friction, FrictionJoint, Law};
+use crate::state::MarkerFrame;
+use friction::Regime;
+
+/// A joint with one freedom.
+struct One<'a> {
+    friction: &'a Friction,
+    load: f64,
+}
+
+impl Joining<1> for One<'_> {
+    fn original(&self, coefficient: &Coefficient<1>) -> Resultant<1> {
+        let (preload, maximum) = self.limits();
+        resultant(coefficient, self.load, preload, maximum)
+    }
+
+    fn bristles(&self, bristles: &Bristles<1>) -> Resultant<1> {
+        let (preload, maximum) = self.limits();
+        bristle_resultant(bristles, self.friction.load.arm(), preload + maximum)
+    }
+}
+
+impl One<'_> {
+    fn limits(&self) -> (f64, f64) {
+        let Friction {
+            preload, maximum, ..
+        } = self.friction;
+        if self.friction.load.has_force_load() {
+            (preload.force, maximum.force)
+        } else {
+            (preload.torque, maximum.torque)
+        }
+    }
+}
+
+/// A cylindrical joint.
+struct Both<'a> {
+    friction: &'a Friction,
+    load: f64,
+}
+
+impl Joining<2> for Both<'_> {
+    fn original(&self, coefficient: &Coefficient<2>) -> Resultant<2> {
+        let Friction {
+            preload, maximum, ..
+        } = self.friction;
+        cylindrical_resultant(
+            coefficient,
+            self.load,
+            self.friction.load.arm(),
+            [preload.force, preload.torque],
+            [maximum.force, maximum.torque],
+        )
+    }
+
+    fn bristles(&self, bristles: &Bristles<2>) -> Resultant<2> {
+        let Friction {
+            preload, maximum, ..
+        } = self.friction;
+        let limit = [
+            preload.force + maximum.force,
+            preload.torque + maximum.torque,
+        ];
+        cylindrical_bristle_resultant(bristles, self.friction.load.arm(), limit)
+    }
+}
+
+/// Friction along or about the one freedom of a joint.
+pub(super) fn one(
+    friction: &Friction,
+    memory: &Memory,
+    past: &BristlePast,
+    equation: Equation,
+    load: &LoadAt,
+    i: &MarkerFrame,
+    j: &MarkerFrame,
+) -> Element {
+    let joining = One {
+        friction,
+        load: load.load.value,
+    };
+    evaluate(friction, memory, past, [equation], load, i, j, &joining)
+}
+
+/// Friction along and about the axis of a cylindrical joint.
+pub(super) fn cylindrical(
+    friction: &Friction,
+    memory: &Memory,
+    past: &BristlePast,
+    equations: [Equation; 2],
+    load: &LoadAt,
+    i: &MarkerFrame,
+    j: &MarkerFrame,
+) -> Element {
+    let joining = Both {
+        friction,
+        load: load.load.value,
+    };
+    evaluate(friction, memory, past, equations, load, i, j, &joining)
+}
+
+fn evaluate<const N: usize>(
+    friction: &Friction,
+    memory: &Memory,
+    past: &BristlePast,
+    equations: [Equation; N],
+    load: &LoadAt,
+    i: &MarkerFrame,
+    j: &MarkerFrame,
+    joining: &impl Joining<N>,
+) -> Element {
+    let arms = equations.map(|equation| equation.arm(friction.load.arm()));
+    let u = local_velocities(i, j);
+    let sticks = memory.stuck && matches!(friction.law, Law::Original(_));
+    let (mut velocity, mut creep) = ([0.0; N], [0.0; N]);
+    let mut rows = [Local::zeros(); N];
+    let mut velocity_by_position = [Local::zeros(); N];
+    let mut stiffnesses = [LocalMatrix::zeros(); N];
+    for k in 0..N {
+        let row = equations[k].evaluate(i, j);
+        stiffnesses[k] = equations[k].stiffness(i, j);
+        rows[k] = row.jacobian;
+        velocity[k] = arms[k] * row.jacobian.dot(&u);
+        velocity_by_position[k] = arms[k] * stiffnesses[k].tr_mul(&u);
+        if sticks {
+            creep[k] = memory.creep[k] + arms[k] * memory.change(equations[k], k, row.value);
+        }
+    }
+    let r = respond(
+        friction, memory, past, &velocity, &creep, &load.load, arms, joining,
+    );
+    // The virtual work of component k is force · δ(value): the arms are in the force.
+    let Resultant {
+        force,
+        by_load,
+        by_velocity,
+        by_creep,
+        ..
+    } = r.resultant;
+    let mut element = Element {
+        values: values(friction, equations, &velocity, &creep, &r, load, i, j),
+        force: Local::zeros(),
+        by_load: Local::zeros(),
+        steady_coefficient: r.steady_coefficient,
+        load_by_reaction: load.by_reaction,
+        by_reaction: SMatrix::zeros(),
+        by_velocity: LocalMatrix::zeros(),
+        by_position: LocalMatrix::zeros(),
+        deflection: [0.0; 3],
+        deflection_rate: [0.0; 3],
+    };
+    element.deflection[..N].copy_from_slice(&r.deflection);
+    element.deflection_rate[..N].copy_from_slice(&r.deflection_rate);
+    let mut along_load = Local::zeros();
+    for k in 0..N {
+        element.force += force[k] * rows[k];
+        element.by_load += r.steady_by_load[k] * rows[k];
+        along_load += by_load[k] * rows[k];
+        let mut velocity_change = Local::zeros();
+        let mut position_change = by_load[k] * load.by_position;
+        for l in 0..N {
+            velocity_change += by_velocity[k][l] * arms[l] * rows[l];
+            position_change += by_velocity[k][l] * velocity_by_position[l];
+            if sticks {
+                position_change += by_creep[k][l] * arms[l] * rows[l];
+            }
+        }
+        element.by_velocity += rows[k] * velocity_change.transpose();
+        element.by_position += force[k] * stiffnesses[k] + rows[k] * position_change.transpose();
+    }
+    for (column, slope) in load.by_reaction.iter().enumerate() {
+        element
+            .by_reaction
+            .set_column(column, &(*slope * along_load));
+    }
+    element
+}
+
+fn values<const N: usize>(
+    friction: &Friction,
+    equations: [Equation; N],
+    velocity: &[f64; N],
+    creep: &[f64; N],
+    r: &Response<N>,
+    load: &LoadAt,
+    i: &MarkerFrame,
+    j: &MarkerFrame,
+) -> Values {
+    // The axis of the turning freedom, along the axes of J.
+    let axis = match friction.load {
+        FrictionJoint::Pin(Axis::HookeI, _) => j.axes.tr_mul(&i.axis(0)),
+        FrictionJoint::Pin(Axis::HookeJ, _) => Vector3::y(),
+        FrictionJoint::Pin(Axis::UniversalI, _) => j.axes.tr_mul(&i.axis(2)),
+        _ => Vector3::z(),
+    };
+    let spread = |components: &[f64; N]| {
+        let mut vector = SurfaceVector::ZERO;
+        for (equation, component) in equations.iter().zip(components) {
+            match equation {
+                Equation::About(_) => vector.rotation = *component * axis,
+                _ => vector.translation = *component * Vector3::z(),
+            }
+        }
+        vector
+    };
+    let force = spread(&r.resultant.force);
+    let arms = equations.map(|equation| equation.arm(friction.load.arm()));
+    let power = (0..N)
+        .map(|k| -r.resultant.force[k] * velocity[k] / arms[k])
+        .sum();
+    let visible = if r.regime == Regime::Stuck {
+        *creep
+    } else {
+        [0.0; N]
+    };
+    Values {
+        force: force.translation,
+        torque: force.rotation,
+        mu: spread(&r.mu),
+        mu1: r.mu1,
+        velocity: spread(velocity),
+        creep: spread(&visible),
+        deflection: spread(&r.deflection),
+        beta: r.beta,
+        regime: r.regime,
+        load: load.load,
+        causes: r.causes,
+        clipped: r.resultant.clipped,
+        power,
+        stored: r.stored,
+    }
+}

@@ -1,0 +1,140 @@
+//! Friction of a spherical joint: a torque against its relative rotation.
+//!
+//! The law works in axes fixed to J: its vectors are those of `friction::SphericalLoad`.
+
+use friction::{Bristles, Coefficient, Regime, Resultant, bristle_resultant, resultant};
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use super::response::{Joining, respond};
+use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
+use crate::equation::{Local, LocalMatrix};
+use crate::model::{Friction, Law};
+use crate::rotation::{log, log_jacobian, skew};
+use crate::state::MarkerFrame;
+
+struct Ball<'a> {
+    friction: &'a Friction,
+    load: f64,
+}
+
+impl Joining<3> for Ball<'_> {
+    fn original(&self, coefficient: &Coefficient<3>) -> Resultant<3> {
+        let Friction {
+            preload, maximum, ..
+        } = self.friction;
+        resultant(coefficient, self.load, preload.torque, maximum.torque)
+    }
+
+    fn bristles(&self, bristles: &Bristles<3>) -> Resultant<3> {
+        let Friction {
+            preload, maximum, ..
+        } = self.friction;
+        let limit = preload.torque + maximum.torque;
+        bristle_resultant(bristles, self.friction.load.arm(), limit)
+    }
+}
+
+pub(super) fn evaluate(
+    friction: &Friction,
+    memory: &Memory,
+    past: &BristlePast,
+    load: &LoadAt,
+    i: &MarkerFrame,
+    j: &MarkerFrame,
+) -> Element {
+    let arm = friction.load.arm();
+    let omega = i.omega - j.omega;
+    let to_j = j.axes.transpose();
+    let velocity = arm * (to_j * omega);
+    let sticks = memory.stuck && matches!(friction.law, Law::Original(_));
+    let (creep, turn) = if sticks {
+        let theta = log(&(to_j * i.axes * memory.rotation.transpose()));
+        // The rotation of I comes in from the left, hence the Jacobian at −θ.
+        (
+            Vector3::from(memory.creep) + arm * theta,
+            arm * log_jacobian(&-theta),
+        )
+    } else {
+        (Vector3::zeros(), Matrix3::zeros())
+    };
+    let joining = Ball {
+        friction,
+        load: load.load.value,
+    };
+    let r = respond(
+        friction,
+        memory,
+        past,
+        &velocity.into(),
+        &creep.into(),
+        &load.load,
+        [arm; 3],
+        &joining,
+    );
+    let torque = Vector3::from(r.resultant.force);
+    let stuck = memory.stuck && r.regime == Regime::Stuck;
+    let anchor = if stuck { memory.anchor } else { to_j * i.axes };
+    let printed = |vector: Vector3<f64>| SurfaceVector {
+        translation: Vector3::zeros(),
+        rotation: anchor.tr_mul(&vector),
+    };
+    let visible = if stuck { creep } else { Vector3::zeros() };
+    let mut element = Element {
+        values: Values {
+            force: Vector3::zeros(),
+            torque,
+            mu: printed(Vector3::from(r.mu)),
+            mu1: r.mu1,
+            velocity: printed(velocity),
+            creep: printed(visible),
+            deflection: printed(Vector3::from(r.deflection)),
+            beta: r.beta,
+            regime: r.regime,
+            load: load.load,
+            causes: r.causes,
+            clipped: r.resultant.clipped,
+            power: -torque.dot(&velocity) / arm,
+            stored: r.stored,
+        },
+        force: Local::zeros(),
+        by_load: Local::zeros(),
+        steady_coefficient: r.steady_coefficient,
+        load_by_reaction: load.by_reaction,
+        by_reaction: SMatrix::zeros(),
+        by_velocity: LocalMatrix::zeros(),
+        by_position: LocalMatrix::zeros(),
+        deflection: r.deflection,
+        deflection_rate: r.deflection_rate,
+    };
+    let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
+    let torque = j.axes * torque;
+    // Derivatives of the torque along ground axes by the relative velocity and rotation.
+    let by_omega = j.axes * matrix(r.resultant.by_velocity) * arm * to_j;
+    let by_theta_i = j.axes * matrix(r.resultant.by_creep) * turn * to_j;
+    // δ(A_J T) = δθ_J × (A_J T) + A_J δT, and δ(A_Jᵀ ω) = −A_Jᵀ (δθ_J × ω).
+    let by_theta_j = -skew(&torque) - by_theta_i + by_omega * skew(&omega);
+    let along = j.axes * Vector3::from(r.resultant.by_load);
+    let steady = j.axes * Vector3::from(r.steady_by_load);
+    // Torque on I at 3, the opposite on J at 9.
+    for (place, sign) in [(3, 1.0), (9, -1.0)] {
+        let put = |local: &mut Local, vector: Vector3<f64>| {
+            local.fixed_rows_mut::<3>(place).copy_from(&vector);
+        };
+        put(&mut element.force, sign * torque);
+        put(&mut element.by_load, sign * steady);
+        for k in 0..3 {
+            let column = sign * load.by_reaction[k] * along;
+            let mut view = element.by_reaction.fixed_view_mut::<3, 1>(place, k);
+            view.copy_from(&column);
+        }
+        let put = |matrix: &mut LocalMatrix, column: usize, block: Matrix3<f64>| {
+            let mut view = matrix.fixed_view_mut::<3, 3>(place, column);
+            view.copy_from(&(sign * block));
+        };
+        put(&mut element.by_velocity, 3, by_omega);
+        put(&mut element.by_velocity, 9, -by_omega);
+        put(&mut element.by_position, 3, by_theta_i);
+        put(&mut element.by_position, 9, by_theta_j);
+    }
+    element
+}

@@ -1,0 +1,109 @@
+//! The bristle deflections of LuGre: states of the integrator that the step equations leave out.
+
+use super::System;
+use crate::joint_friction::{BristlePast, StepEnd};
+use crate::model::{Element, Law};
+
+impl System {
+    /// Number of bristle deflections: one by component of the surfaces of each LuGre friction.
+    #[must_use]
+    pub fn bristle_count(&self) -> usize {
+        (0..self.model.frictions.len())
+            .map(|place| self.bristles_of(place))
+            .sum()
+    }
+
+    fn bristles_of(&self, friction: usize) -> usize {
+        let friction = &self.model.frictions[friction];
+        match friction.law {
+            Law::LuGre(_) => friction.load.components(),
+            Law::Original(_) => 0,
+        }
+    }
+
+    /// Says what the integrator's formula gives of the deflections, `z = past + gamma z'`; with
+    /// `gamma = 0` they are `past`.
+    pub(crate) fn set_bristles(&mut self, past: &[f64], gamma: f64) {
+        let mut first = 0;
+        for place in 0..self.model.frictions.len() {
+            let count = self.bristles_of(place);
+            let bristles = &mut self.bristles[place];
+            bristles.gamma = gamma;
+            bristles.past[..count].copy_from_slice(&past[first..first + count]);
+            first += count;
+        }
+    }
+
+    /// Writes the deflections and their rates at the instant evaluated last, where wanted.
+    pub(crate) fn write_bristles(
+        &self,
+        multipliers: &[f64],
+        deflections: Option<&mut [f64]>,
+        rates: Option<&mut [f64]>,
+    ) {
+        let (mut deflections, mut rates) = (deflections, rates);
+        let mut first = 0;
+        for place in 0..self.model.frictions.len() {
+            let count = self.bristles_of(place);
+            if count == 0 {
+                continue;
+            }
+            let element = self.friction(place, multipliers).0;
+            if let Some(out) = deflections.as_deref_mut() {
+                out[first..first + count].copy_from_slice(&element.deflection[..count]);
+            }
+            if let Some(out) = rates.as_deref_mut() {
+                out[first..first + count].copy_from_slice(&element.deflection_rate[..count]);
+            }
+            first += count;
+        }
+    }
+
+    /// Length that a difference of each deflection counts against: what the largest load so far
+    /// bends the bristles by.
+    pub(crate) fn write_bristle_scales(&self, scales: &mut [f64]) {
+        let mut first = 0;
+        for (place, friction) in self.model.frictions.iter().enumerate() {
+            let count = self.bristles_of(place);
+            if let Law::LuGre(law) = &friction.law {
+                let memory = &self.history.frictions[place];
+                let level = law.mu_static * memory.largest_load + friction.surface_preload();
+                scales[first..first + count].fill(level / law.bristle_stiffness);
+            }
+            first += count;
+        }
+    }
+
+    /// Takes over the present instant as the end of an accepted step of length `size`.
+    pub(crate) fn accept_frictions(&mut self, multipliers: &[f64], size: f64) {
+        for place in 0..self.model.frictions.len() {
+            if !self.model.is_active(Element::Friction(place)) {
+                continue;
+            }
+            let (element, i, j) = self.friction(place, multipliers);
+            let friction = &self.model.frictions[place];
+            let end = StepEnd {
+                time: self.time,
+                size,
+                deflection: element.deflection,
+                load: friction.surface_load(&element.values.load),
+            };
+            self.history.frictions[place].accept(friction, &i, &j, &end);
+        }
+    }
+
+    /// Forgets nothing but the past of the formula: a friction at a new place in time.
+    pub(crate) fn observe_loads(&mut self, multipliers: &[f64]) {
+        for place in 0..self.model.frictions.len() {
+            let load = self.friction(place, multipliers).0.values.load;
+            let load = self.model.frictions[place].surface_load(&load);
+            let memory = &mut self.history.frictions[place];
+            memory.largest_load = memory.largest_load.max(load);
+        }
+    }
+
+    /// What is known of the bristles of a friction.
+    pub(super) fn bristle_past(&self, friction: usize) -> &BristlePast {
+        &self.bristles[friction]
+    }
+}

@@ -1,0 +1,38 @@
+//! The rates at which friction, forces and motions do work.
+
+use super::System;
+use super::single_force::direction;
+use crate::equation::local_velocities;
+use crate::model::Element;
+
+impl System {
+    /// Number of works that are integrated: one by friction, that of forces, that of motions.
+    #[must_use]
+    pub fn work_count(&self) -> usize {
+        self.model.frictions.len() + 2
+    }
+
+    /// Powers at the instant evaluated last: what each friction takes out, then what forces and what
+    /// motions (and general constraints that move with time) put in. Weight has its energy instead.
+    pub(crate) fn write_powers(&mut self, multipliers: &[f64], powers: &mut [f64]) {
+        let frictions = self.model.frictions.len();
+        for place in 0..frictions {
+            powers[place] = self.friction(place, multipliers).0.values.power;
+        }
+        let mut forces = 0.0;
+        for place in 0..self.model.forces.len() {
+            if !self.model.is_active(Element::Force(place)) {
+                continue;
+            }
+            let (i, j) = self.force_markers(place);
+            let direction = direction(self.model.forces[place].kind, &i, &j);
+            forces += self.force_value(place) * direction.dot(&local_velocities(&i, &j));
+        }
+        powers[frictions] = forces;
+        let mut motions = 0.0;
+        for (row, &place) in self.rows.iter().enumerate() {
+            motions += multipliers[row] * self.evaluated[place].rate;
+        }
+        powers[frictions + 1] = motions;
+    }
+}
