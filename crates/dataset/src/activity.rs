@@ -21,6 +21,7 @@ pub(crate) const KEYWORDS: &[Keyword] = &[
     abbreviated("SFORCE", "SF", Kind::Flag),
     abbreviated("SPRINGDAMPER", "SPR", Kind::Flag),
     abbreviated("FRICTION", "FRI", Kind::Flag),
+    abbreviated("SENSOR", "SE", Kind::Flag),
     abbreviated("VARIABLE", "VAR", Kind::Unsupported(NOT_HERE)),
     abbreviated("REQUEST", "REQ", Kind::Unsupported(NOT_HERE)),
     keyword("ADAMS_BUSHING", Kind::Unsupported(NEVER_READ)),
@@ -39,7 +40,6 @@ pub(crate) const KEYWORDS: &[Keyword] = &[
     abbreviated("MFORCE", "MF", Kind::Unsupported(NEVER_READ)),
     abbreviated("NFORCE", "NF", Kind::Unsupported(NEVER_READ)),
     keyword("PTCV", Kind::Unsupported(NEVER_READ)),
-    abbreviated("SENSOR", "SE", Kind::Unsupported(NEVER_READ)),
     abbreviated("TFSISO", "TF", Kind::Unsupported(NEVER_READ)),
     keyword("TIRE", Kind::Unsupported(NEVER_READ)),
     abbreviated("UCON", "UC", Kind::Unsupported(NEVER_READ)),
@@ -159,6 +159,7 @@ impl Dataset {
             Switchable::SingleForce => sorted(&self.single_forces),
             Switchable::SpringDamper => sorted(&self.spring_dampers),
             Switchable::Friction => sorted(&self.frictions),
+            Switchable::Sensor => sorted(&self.sensors),
         };
         let name = activity.kind.statement();
         match &activity.selection {

@@ -69,6 +69,8 @@ codes! {
     UnsupportedFunction = "unsupported-function",
     /// The initial conditions cannot be met.
     Assembly = "assembly",
+    /// No equilibrium is found.
+    Equilibrium = "equilibrium",
     /// The integration cannot go on.
     Integration = "integration",
     /// An argument or statement without effect here, which cannot change the motion.

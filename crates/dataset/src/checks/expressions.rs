@@ -27,7 +27,8 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         find_missing(dataset, expression, &mut missing);
         friction(expression, Place::Motion, diagnostics);
     }
-    for expression in requests.flatten() {
+    let sensors = dataset.sensors.iter().map(|element| &element.function);
+    for expression in requests.flatten().chain(sensors) {
         find_missing(dataset, expression, &mut missing);
         friction(expression, Place::Output, diagnostics);
     }
@@ -52,7 +53,7 @@ pub(crate) fn check(
 enum Place {
     /// An element that can move the model.
     Motion,
-    /// A REQUEST.
+    /// A REQUEST or SENSOR.
     Output,
 }
 
@@ -79,7 +80,7 @@ fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics
         }
         if place == Place::Motion {
             right = false;
-            let message = "FRICTION can be read by a REQUEST only";
+            let message = "FRICTION can be read by a REQUEST or SENSOR only";
             diagnostics.error(Code::UnsupportedFunction, *span, message);
         }
     });

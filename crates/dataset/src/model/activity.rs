@@ -20,11 +20,13 @@ pub enum Switchable {
     SpringDamper,
     /// FRICTION.
     Friction,
+    /// SENSOR.
+    Sensor,
 }
 
 impl Switchable {
     /// Every type.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Joint,
         Self::Primitive,
         Self::Motion,
@@ -32,6 +34,7 @@ impl Switchable {
         Self::SingleForce,
         Self::SpringDamper,
         Self::Friction,
+        Self::Sensor,
     ];
 
     /// The name of its statement.
@@ -45,6 +48,7 @@ impl Switchable {
             Self::SingleForce => "SFORCE",
             Self::SpringDamper => "SPRINGDAMPER",
             Self::Friction => "FRICTION",
+            Self::Sensor => "SENSOR",
         }
     }
 }

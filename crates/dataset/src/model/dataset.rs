@@ -3,7 +3,8 @@
 use super::{
     Elements, Equilibrium, Friction, GeneralConstraint, Graphics, InitialConditions, Integrator,
     Joint, JointPrimitive, Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass,
-    Preferences, Request, ResultsOptions, SingleForce, SpringDamper, Switchable, Units, Variable,
+    Preferences, Request, ResultsOptions, Sensor, SingleForce, SpringDamper, Switchable, Units,
+    Variable,
 };
 use std::collections::BTreeSet;
 
@@ -46,6 +47,8 @@ pub struct Dataset {
     pub plant_outputs: Elements<PlantPort>,
     /// REQUEST.
     pub requests: Elements<Request>,
+    /// SENSOR.
+    pub sensors: Elements<Sensor>,
     /// FRICTION.
     pub frictions: Elements<Friction>,
     /// GRAPHICS, kept for pictures.

@@ -108,6 +108,7 @@ elements!(
     super::Variable,
     super::PlantPort,
     super::Request,
+    super::Sensor,
     super::Graphics,
     super::Friction,
 );

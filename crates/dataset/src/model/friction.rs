@@ -334,9 +334,10 @@ impl Friction {
         self.given[quantity as usize] = Some(value);
     }
 
-    /// What keeps this friction, in a joint of this kind, from using a quantity; `None` where it
-    /// uses it.
-    pub(crate) fn unused(&self, quantity: FrictionQuantity, joint: JointKind) -> Option<String> {
+    /// What keeps this friction, in a joint of this kind, from using a quantity, in words such as
+    /// `a REVOLUTE joint` or `INPUTS without PRELOAD`; `None` where it uses it.
+    #[must_use]
+    pub fn unused(&self, quantity: FrictionQuantity, joint: JointKind) -> Option<String> {
         use FrictionQuantity as Q;
         if !quantity.used_in(self.formulation) {
             return Some(format!("FORMULATION = {}", self.formulation.keyword()));

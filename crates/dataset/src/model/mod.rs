@@ -13,6 +13,7 @@ mod joint;
 mod motion;
 mod part;
 mod request;
+mod sensor;
 mod settings;
 mod units;
 mod variable;
@@ -36,6 +37,7 @@ pub use joint::{
 pub use motion::{Motion, MotionDirection, MotionLevel, MotionTarget};
 pub use part::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
 pub use request::{Graphics, Request, RequestKind};
+pub use sensor::{Comparison, Sensor};
 pub use settings::{
     Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
     Kinematics, OutputOptions, Preferences, ResultsOptions,

@@ -6,6 +6,7 @@ mod joint;
 mod motion;
 mod part;
 mod request;
+mod sensor;
 mod settings;
 mod table;
 mod units;

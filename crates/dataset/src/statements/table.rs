@@ -1,7 +1,7 @@
 //! The table of statements.
 
 use super::Builder;
-use super::{force, friction, joint, motion, part, request, settings, units, variable};
+use super::{force, friction, joint, motion, part, request, sensor, settings, units, variable};
 use crate::keywords::Keyword;
 use crate::names::Name;
 use crate::reading::Reading;
@@ -107,6 +107,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         variable::plant_output,
     ),
     read("REQUEST", "R", request::KEYWORDS, request::request),
+    read("SENSOR", "SE", sensor::KEYWORDS, sensor::sensor),
     read("FRICTION", "FRI", friction::KEYWORDS, friction::friction),
     Rule {
         name: Name {
@@ -189,7 +190,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("MFORCE", "MF"),
     unsupported("NFORCE", "NF"),
     unsupported("PTCV", "PT"),
-    unsupported("SENSOR", "SE"),
     unsupported("TFSISO", "TF"),
     unsupported("TIRE", "TIRE"),
     unsupported("UCON", "UC"),

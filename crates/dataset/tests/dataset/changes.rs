@@ -89,7 +89,7 @@ fn changes_that_cannot_be_made_leave_the_model_alone() {
         ("FRICTION/1", "FRICTION/1 gives nothing to change"),
         (
             "VARIABLE/1, FUNCTION=FRICTION(1, 6)",
-            "FRICTION can be read by a REQUEST only",
+            "FRICTION can be read by a REQUEST or SENSOR only",
         ),
         ("EQUILIBRIUM", "EQUILIBRIUM gives nothing to change"),
         ("EQUILIBRIUM/STABILITY=-1", "STABILITY must be 0 or greater"),
