@@ -13,6 +13,7 @@ mod linkages;
 mod pins;
 mod rotors;
 mod slopes;
+mod spatial;
 mod springs;
 
 use friction::parameters::JointType;

@@ -4,11 +4,13 @@ mod andrews;
 mod linkages;
 mod rigid;
 pub(crate) mod sliding;
+mod spatial;
 pub(crate) mod turning;
 
 pub(crate) use andrews::{andrews, body_angles};
 pub(crate) use linkages::{bricard, four_bar, four_bar_chain, slider_crank};
 pub(crate) use rigid::{free_body, pendulum, top};
+pub(crate) use spatial::rssr;
 
 /// The original law with the transition coefficient 1.5 and all effects.
 pub(crate) fn law(

@@ -20,6 +20,20 @@ pub(crate) fn pin_load(pin_radius: f64, friction_arm: f64) -> FrictionJoint {
     })
 }
 
+/// The load of a bearing: its reaction force, radial and axial, and its bending moment.
+pub(crate) fn bearing_load(
+    pin_radius: f64,
+    friction_arm: f64,
+    bending_reaction_arm: f64,
+) -> FrictionJoint {
+    FrictionJoint::Revolute(RevoluteLoad {
+        inputs: Inputs::ALL,
+        pin_radius,
+        friction_arm,
+        bending_reaction_arm,
+    })
+}
+
 /// 1 kg at `length` below a pin of radius `pin_radius`, swung out by `angle` about z and turning
 /// at `rate`; `inertia` is that of the centre of mass about z. The angle of the body is its
 /// rotation, so it starts at zero: the pendulum's angle is `angle` plus that.
