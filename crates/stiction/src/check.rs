@@ -39,7 +39,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
     let (_, surveyed) = project.survey()?;
     let mut messages = project.warnings().to_vec();
     messages.extend(surveyed);
-    messages.extend(static_simulations(project));
+    messages.extend(refused_simulations(project));
     let dataset = project.dataset();
     let mut simulation = project.simulation()?;
     let frictions = &simulation.model().frictions;
@@ -93,13 +93,12 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
 }
 
 /// Errors for the commands that ask for an analysis that is not simulated.
-fn static_simulations(project: &Project) -> Vec<Message> {
-    use SimulationKind as K;
+fn refused_simulations(project: &Project) -> Vec<Message> {
     let refused = project.steps().iter().filter_map(|step| {
         let CommandKind::Simulate(simulate) = &step.command.kind else {
             return None;
         };
-        if !matches!(simulate.kind, K::Static | K::QuasiStatic | K::Settle) {
+        if simulate.kind != SimulationKind::Settle {
             return None;
         }
         let source = project.source(step.source);

@@ -1,6 +1,6 @@
 //! Defaults of FRICTION arguments that a dataset leaves out.
 
-use dataset::{Dataset, DefaultInUse, Dimension};
+use dataset::{Dataset, DefaultInUse, Dimension, FrictionQuantity};
 use results::UnitNames;
 
 use crate::channels::{name, unit_names};
@@ -18,11 +18,11 @@ pub struct FrictionDefaults {
     pub units: UnitNames,
 }
 
-/// A number with its unit, `1e40` rather than its forty digits.
-fn with_unit(default: &DefaultInUse, units: &UnitNames) -> String {
-    let number = format!("{:?}", default.value);
+/// A value of a quantity with its unit, `1e40` rather than its forty digits.
+pub(crate) fn with_unit(quantity: FrictionQuantity, value: f64, units: &UnitNames) -> String {
+    let number = format!("{value:?}");
     let number = number.strip_suffix(".0").unwrap_or(&number);
-    let unit = match default.quantity.dimension() {
+    let unit = match quantity.dimension() {
         Dimension::Number => return number.to_owned(),
         Dimension::Length => units.length.clone(),
         Dimension::Velocity => units.velocity(),
@@ -43,7 +43,7 @@ impl std::fmt::Display for FrictionDefaults {
                 f,
                 "{separator}{}={}",
                 default.quantity.keyword(),
-                with_unit(default, &self.units)
+                with_unit(default.quantity, default.value, &self.units)
             )?;
         }
         Ok(())

@@ -71,6 +71,14 @@ pub(crate) fn of_start(dataset: &Dataset, source: &Source, error: &RunError) -> 
     message(dataset, source, Code::Assembly, text, element, help)
 }
 
+/// An equilibrium that was not found.
+pub(crate) fn of_equilibrium(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
+    let text = format!("the static solution stopped {error}");
+    let help = "the results up to then are kept";
+    let element = error.element.as_ref();
+    message(dataset, source, Code::Equilibrium, text, element, help)
+}
+
 /// An integration that stopped.
 pub(crate) fn of_run(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
     let text = format!("the integration stopped {error}");

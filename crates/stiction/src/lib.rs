@@ -11,9 +11,11 @@
 //! |---|---|
 //! | files to a checked dataset and commands | `loader.rs`, `project.rs` |
 //! | dataset to mechanics | `lower/` |
-//! | commands carried out | `session.rs`, settings and output times in `settings.rs` |
+//! | a run from outside | `session.rs` |
+//! | commands carried out | `runner.rs`, equilibria in `statics.rs`, settings and output times in `settings.rs` |
 //! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs` |
-//! | message file | `journal.rs` |
+//! | events | `sensors.rs` |
+//! | message file | `journal.rs`, LIST in `listing.rs` |
 //! | table of friction | `report.rs` |
 //! | a look without a run | `check.rs` |
 //!
@@ -43,14 +45,18 @@ mod check;
 mod defaults;
 mod failure;
 mod journal;
+mod listing;
 mod loader;
 mod lower;
 mod message;
 mod project;
 mod recorder;
 mod report;
+mod runner;
+mod sensors;
 mod session;
 mod settings;
+mod statics;
 mod wrenches;
 
 pub use check::{CheckReport, check};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use dataset::{Code, Command, CommandKind, Dataset, Diagnostic, Severity, Source, Span};
 
-use crate::lower::{Measures, lower};
+use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::project::{Project, SourcedCommand};
 
@@ -198,7 +198,12 @@ impl Loader {
             return Vec::new();
         };
         let source = &self.sources[*model];
-        let lowered = lower(dataset, source.name(), &mut Measures::default());
+        let lowered = lower(
+            dataset,
+            source.name(),
+            &mut Measures::default(),
+            Mode::Dynamic,
+        );
         let diagnostics = lowered.err().unwrap_or_default();
         let unsupported = diagnostics.into_iter().filter(|diagnostic| {
             matches!(

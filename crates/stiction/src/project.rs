@@ -8,7 +8,7 @@ use dataset::{
 };
 
 use crate::loader;
-use crate::lower::{Measures, lower};
+use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::settings;
 
@@ -166,7 +166,12 @@ impl Project {
     /// ```
     pub fn simulation(&self) -> Result<mechanics::Simulation, InputError> {
         let source = self.model_source();
-        let lowered = lower(&self.dataset, source.name(), &mut Measures::default());
+        let lowered = lower(
+            &self.dataset,
+            source.name(),
+            &mut Measures::default(),
+            Mode::Dynamic,
+        );
         let lowered = lowered.map_err(|diagnostics| InputError {
             messages: diagnostics
                 .into_iter()
@@ -187,7 +192,7 @@ impl Project {
     pub(crate) fn survey(&self) -> Result<(Measures, Vec<Message>), InputError> {
         let mut measures = Measures::default();
         let source = self.model_source();
-        let lowered = lower(&self.dataset, source.name(), &mut measures);
+        let lowered = lower(&self.dataset, source.name(), &mut measures, Mode::Dynamic);
         let given = lowered.is_ok();
         let mut messages: Vec<Message> = lowered
             .map_or_else(|diagnostics| diagnostics, |lowered| lowered.warnings)
@@ -206,7 +211,7 @@ impl Project {
                 CommandKind::Simulate(simulate) => {
                     // A model that is refused as given would be refused again.
                     if let Some(changed) = changed.take().filter(|_| given) {
-                        let lowered = lower(&dataset, source.name(), &mut measures);
+                        let lowered = lower(&dataset, source.name(), &mut measures, Mode::Dynamic);
                         messages.extend(self.at_command(lowered.err(), changed));
                     }
                     match settings::span(simulate, time) {

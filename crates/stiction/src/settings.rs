@@ -1,7 +1,8 @@
-//! INTEGRATOR and SIMULATE to settings and output times; what is not honoured is listed.
+//! INTEGRATOR, EQUILIBRIUM and SIMULATE to settings and output times; what is not honoured is
+//! listed.
 
-use dataset::{IndexReduction, Integrator, IntegratorMethod, Simulate};
-use mechanics::{Formulation, Settings};
+use dataset::{Equilibrium, IndexReduction, Integrator, IntegratorMethod, Simulate};
+use mechanics::{EquilibriumSettings, Formulation, Settings};
 
 /// Error tolerance without an INTEGRATOR statement.
 const OWN_ERROR: f64 = 1e-6;
@@ -68,13 +69,20 @@ pub(crate) fn choose(
         notes.push(format!("KMAX={kmax}: the highest order is {HIGHEST_ORDER}"));
     }
     let longest_step = given.hmax.unwrap_or(output_step);
-    let not_honoured = not_honoured(given);
-    if !not_honoured.is_empty() {
-        notes.push(format!(
-            "INTEGRATOR: without effect here: {}",
-            not_honoured.join(", ")
-        ));
-    }
+    notes.extend(not_honoured(
+        "INTEGRATOR",
+        &[
+            ("HRATIO", given.hratio.is_some()),
+            ("FIXIT", given.fixit.is_some()),
+            ("PATTERN", given.pattern.is_some()),
+            ("CORRECTOR", given.corrector.is_some()),
+            ("INTERPOLATE", given.interpolate.is_some()),
+            ("ADAPTIVITY", given.adaptivity.is_some()),
+            ("ALPHA", given.alpha.is_some()),
+            ("BETA", given.beta.is_some()),
+            ("GAMMA", given.gamma.is_some()),
+        ],
+    ));
     let settings = Settings {
         formulation,
         error: error.or(given.error).unwrap_or(default_error),
@@ -90,23 +98,40 @@ pub(crate) fn choose(
     Choice { settings, notes }
 }
 
-/// Arguments that are given and do nothing.
-fn not_honoured(given: &Integrator) -> Vec<&'static str> {
-    let arguments = [
-        ("HRATIO", given.hratio.is_some()),
-        ("FIXIT", given.fixit.is_some()),
-        ("PATTERN", given.pattern.is_some()),
-        ("CORRECTOR", given.corrector.is_some()),
-        ("INTERPOLATE", given.interpolate.is_some()),
-        ("ADAPTIVITY", given.adaptivity.is_some()),
-        ("ALPHA", given.alpha.is_some()),
-        ("BETA", given.beta.is_some()),
-        ("GAMMA", given.gamma.is_some()),
-    ];
-    arguments
-        .into_iter()
-        .filter_map(|(name, given)| given.then_some(name))
-        .collect()
+/// What to tell about the arguments of a statement that are given and do nothing.
+fn not_honoured(statement: &str, arguments: &[(&str, bool)]) -> Option<String> {
+    let given = arguments.iter().filter(|(_, given)| *given);
+    let names: Vec<&str> = given.map(|(name, _)| *name).collect();
+    let list = || format!("{statement}: without effect here: {}", names.join(", "));
+    (!names.is_empty()).then(list)
+}
+
+/// How an equilibrium is found, and what to tell about it.
+///
+/// Defaults are those of Adams: ERROR 1e-4, IMBALANCE 1e-4, STABILITY 1e-5, MAXIT 25, ALIMIT 10
+/// degrees, TLIMIT 20 units of length.
+pub(crate) fn equilibrium(given: Option<&Equilibrium>) -> (EquilibriumSettings, Option<String>) {
+    let fallback = Equilibrium::default();
+    let given = given.unwrap_or(&fallback);
+    let notes = not_honoured(
+        "EQUILIBRIUM",
+        &[
+            ("PATTERN", given.pattern.is_some()),
+            ("METHOD", given.method.is_some()),
+            ("ATOL", given.atol.is_some()),
+            ("RTOL", given.rtol.is_some()),
+            ("MAXITL", given.maxitl.is_some()),
+        ],
+    );
+    let settings = EquilibriumSettings {
+        error: given.error.unwrap_or(1e-4),
+        imbalance: given.imbalance.unwrap_or(1e-4),
+        stability: given.stability.unwrap_or(1e-5),
+        iterations: given.maxit.unwrap_or(25) as usize,
+        angle_limit: given.alimit.unwrap_or(10.0_f64.to_radians()),
+        translation_limit: given.tlimit.unwrap_or(20.0),
+    };
+    (settings, notes)
 }
 
 /// End of a simulation and the time between its outputs.
@@ -236,5 +261,21 @@ mod tests {
             choose(Some(&given), 0.01, Some(1e-4), 1.0).settings.error,
             1e-4
         );
+    }
+
+    #[test]
+    fn equilibria_follow_the_statement_and_its_defaults() {
+        let (settings, note) = equilibrium(None);
+        assert_eq!((settings.iterations, note), (25, None));
+        assert_eq!((settings.error, settings.imbalance), (1e-4, 1e-4));
+        let given = Equilibrium {
+            stability: Some(0.0),
+            alimit: Some(0.5),
+            method: Some("AGGRESSIVE".to_owned()),
+            ..Equilibrium::default()
+        };
+        let (settings, note) = equilibrium(Some(&given));
+        assert_eq!((settings.stability, settings.angle_limit), (0.0, 0.5));
+        assert!(note.unwrap().contains("METHOD"));
     }
 }

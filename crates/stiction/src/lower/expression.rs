@@ -2,9 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use dataset::{
-    ArgumentKind, BinaryOperator, Code, Element, Expr, Expression, Function, Severity, Span,
-};
+use dataset::{ArgumentKind, BinaryOperator, Code, Element, Expr, Expression, Function, Span};
 use mechanics::expression::{Binary, Input, Operation, Program, Register, Unary};
 use mechanics::measure::Order;
 
@@ -121,12 +119,8 @@ impl Compiler {
             Expr::Number(value) => self.constant(*value),
             Expr::Time => self.program.push(Operation::Input(Input::Time)),
             Expr::Mode => {
-                let message = format!(
-                    "{}: MODE is 4, dynamics, throughout; there is no other analysis yet",
-                    self.owner
-                );
-                lowering.add(Severity::Note, Code::Ignored, self.span, message, None);
-                self.constant(4.0)
+                lowering.reads_mode = true;
+                self.constant(lowering.mode.value())
             }
             Expr::Negate(operand) => {
                 let operand = self.expr(lowering, operand)?;

@@ -16,16 +16,38 @@ mod motions;
 mod outputs;
 mod results;
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
-use ::dataset::{Code, Dataset, Diagnostic, Header, Severity, Span};
+use ::dataset::{Code, Dataset, Diagnostic, Header, Severity, Span, Switchable};
 use mechanics::Owner;
-use mechanics::model::{Label, Model};
+use mechanics::model::{Element, Label, Model};
 use nalgebra::Vector3;
 
 pub(crate) use measures::Measures;
 pub(crate) use outputs::{Column, Outputs, Unit};
 pub(crate) use results::{ForceElement, Side};
+
+/// The analysis that functions are lowered for: what MODE gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// Dynamics, and all that has no number of its own here.
+    Dynamic,
+    /// An equilibrium.
+    Static,
+    /// A sequence of equilibria.
+    QuasiStatic,
+}
+
+impl Mode {
+    /// The value of MODE.
+    const fn value(self) -> f64 {
+        match self {
+            Self::Dynamic => 4.0,
+            Self::Static => 5.0,
+            Self::QuasiStatic => 6.0,
+        }
+    }
+}
 
 /// A dataset lowered to mechanics.
 #[derive(Clone, Debug)]
@@ -36,6 +58,10 @@ pub(crate) struct Lowered {
     pub(crate) outputs: Outputs,
     /// What each motion of the dataset has become: a motion, or a general constraint.
     pub(crate) motions: Vec<Option<Owner>>,
+    /// The analysis that it is lowered for.
+    pub(crate) mode: Mode,
+    /// Whether a function reads MODE, so that another analysis needs another lowering.
+    pub(crate) reads_mode: bool,
     /// Warnings.
     pub(crate) warnings: Vec<Diagnostic>,
 }
@@ -43,7 +69,7 @@ pub(crate) struct Lowered {
 /// Lowers a dataset that was read without errors from the source of that name.
 ///
 /// `measures` keeps its measures and takes on the new ones, so that models that are lowered with
-/// the same list number them alike.
+/// the same list number them alike. `mode` is the analysis to come.
 ///
 /// # Errors
 /// Everything that is not simulated, each with its place.
@@ -51,6 +77,7 @@ pub(crate) fn lower(
     dataset: &Dataset,
     source: &str,
     measures: &mut Measures,
+    mode: Mode,
 ) -> Result<Lowered, Vec<Diagnostic>> {
     let mut lowering = Lowering {
         dataset,
@@ -58,6 +85,8 @@ pub(crate) fn lower(
         ucf: dataset.units.as_ref().map_or(1.0, |units| units.ucf),
         ground: dataset.markers.len(),
         measures,
+        mode,
+        reads_mode: false,
         motions: Vec::new(),
         results: Vec::new(),
         diagnostics: Vec::new(),
@@ -75,9 +104,11 @@ pub(crate) fn lower(
     lowering.motions(&mut model);
     lowering.forces(&mut model);
     let outputs = lowering.outputs();
+    model.inactive = lowering.inactive();
     let Lowering {
         motions,
         diagnostics,
+        reads_mode,
         ..
     } = lowering;
     model.measures = measures.list().to_vec();
@@ -88,6 +119,8 @@ pub(crate) fn lower(
         model,
         outputs,
         motions,
+        mode,
+        reads_mode,
         warnings: diagnostics,
     })
 }
@@ -102,6 +135,8 @@ struct Lowering<'a> {
     /// Place of the implicit marker at the origin of ground.
     ground: usize,
     measures: &'a mut Measures,
+    mode: Mode,
+    reads_mode: bool,
     motions: Vec<Option<Owner>>,
     /// Results that output functions read, by number.
     results: Vec<results::ResultSource>,
@@ -114,6 +149,38 @@ impl Lowering<'_> {
     /// Place of a marker; 0 is the ground.
     fn marker_place(&self, id: u32) -> usize {
         self.dataset.markers.position(id).unwrap_or(self.ground)
+    }
+
+    /// The elements that DEACTIVATE has switched off, by their places in the model.
+    fn inactive(&self) -> BTreeSet<Element> {
+        let dataset = self.dataset;
+        let place = |&(kind, id): &(Switchable, u32)| {
+            Some(match kind {
+                Switchable::Joint => Element::Joint(dataset.joints.position(id)?),
+                Switchable::Primitive => {
+                    Element::Joint(dataset.joints.len() + dataset.primitives.position(id)?)
+                }
+                Switchable::Constraint => Element::Constraint(dataset.constraints.position(id)?),
+                Switchable::SingleForce => Element::Force(dataset.single_forces.position(id)?),
+                Switchable::SpringDamper => {
+                    let place = dataset.spring_dampers.position(id)?;
+                    Element::Force(dataset.single_forces.len() + place)
+                }
+                Switchable::Friction => Element::Friction(dataset.frictions.position(id)?),
+                // Motions rest with their joints, too; sensors are no part of the model.
+                Switchable::Motion | Switchable::Sensor => return None,
+            })
+        };
+        let motions = dataset.motions.iter().zip(&self.motions);
+        let resting = motions
+            .filter(|(motion, _)| !dataset.is_active(Switchable::Motion, motion.header.id))
+            .filter_map(|(_, owner)| match (*owner)? {
+                Owner::Motion(place) => Some(Element::Motion(place)),
+                Owner::General(place) => Some(Element::Constraint(place)),
+                Owner::Joint(_) => None,
+            });
+        let switched = dataset.inactive.iter().filter_map(place);
+        switched.chain(resting).collect()
     }
 
     fn error(&mut self, code: Code, span: Span, message: String, help: Option<&str>) {

@@ -1,4 +1,4 @@
-//! REQUEST and VARIABLE as outputs: one program that gives them all.
+//! REQUEST and VARIABLE as outputs, in one program that gives them all, and what SENSORs watch.
 
 use dataset::{Code, Expr, Function, Request, RequestKind};
 use mechanics::expression::{Input, Operation, Program, Register};
@@ -67,6 +67,8 @@ pub(crate) struct Outputs {
     pub(crate) variables: Vec<Register>,
     /// The requests, in the order of the dataset.
     pub(crate) requests: Vec<RequestOutput>,
+    /// What each sensor watches, in the order of the dataset.
+    pub(crate) sensors: Vec<Program>,
 }
 
 /// Names of the columns of a standard request, its functions by column (marker arguments i, j and
@@ -96,6 +98,10 @@ impl Lowering<'_> {
                 place,
                 columns,
             });
+        }
+        for sensor in &dataset.sensors {
+            let function = self.function(sensor, "SENSOR", Reads::Everything, &sensor.function);
+            outputs.sensors.extend(function);
         }
         outputs.program = compiler.program;
         outputs.results.clone_from(&self.results);

@@ -155,7 +155,7 @@ impl ResultSource {
             Self::Friction {
                 friction,
                 component,
-            } => instant.friction(friction)[component],
+            } => instant.components(friction)[component],
         }
     }
 }

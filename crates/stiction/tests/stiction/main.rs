@@ -15,5 +15,8 @@ mod invariance;
 mod jumps;
 mod lowering;
 mod machines;
+mod run_time;
+mod runs;
 mod shared;
+mod statics;
 mod table;

@@ -1,0 +1,428 @@
+//! A run: commands carried out one by one, results written as they come.
+
+use std::fs::File;
+use std::path::Path;
+use std::time::Instant;
+
+use dataset::{Change, ChangeKind, CommandKind, Dataset, Simulate, SimulationKind};
+use mechanics::{Assembly, AssemblyError, Ending, Simulation};
+use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
+
+use crate::channels::{Channels, Row, unit_names};
+use crate::failure;
+use crate::journal::Journal;
+use crate::listing;
+use crate::lower::{Lowered, Measures, Mode, lower};
+use crate::message::Message;
+use crate::project::{Project, SourcedCommand, second};
+use crate::recorder::{Observe, Recorder, Stop};
+use crate::report;
+use crate::sensors::{Sensing, Sensors};
+use crate::session::{Outcome, OutputError, RunOptions, RunReport, Session, Watch};
+use crate::settings::{self, TimeSpan};
+
+/// Rows of the integrator's table, about, for each simulation.
+const TABLE_ROWS: f64 = 10.0;
+
+/// A run while it goes on.
+pub(crate) struct Runner<'a> {
+    pub(crate) session: &'a Session<'a>,
+    options: RunOptions,
+    pub(crate) dataset: Dataset,
+    measures: Measures,
+    lowered: Lowered,
+    /// Whether the dataset has changed since it was lowered.
+    changed: bool,
+    pub(crate) simulation: Simulation,
+    assembled: bool,
+    pub(crate) instant: Recorded,
+    /// Typical length of the assembled model.
+    pub(crate) length: f64,
+    pub(crate) simulations: usize,
+    pub(crate) started: Instant,
+    pub(crate) last_end: f64,
+    pub(crate) log: Journal<File>,
+    pub(crate) recorder: Recorder<File>,
+}
+
+/// What the results hold of the present instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Recorded {
+    /// Nothing yet.
+    Nothing,
+    /// An equilibrium.
+    Equilibrium,
+    /// An instant of motion, at the start or the end of a simulation.
+    Motion,
+}
+
+/// Reasons for the commands to end early.
+pub(crate) enum Halt {
+    Ended(Outcome),
+    Output(OutputError),
+}
+
+impl From<OutputError> for Halt {
+    fn from(error: OutputError) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl Halt {
+    /// A command that is not carried out.
+    fn refused(text: &str) -> Self {
+        Self::Ended(Outcome::Refused(format!("error: {text}")))
+    }
+
+    /// A failure with its place.
+    pub(crate) fn located(outcome: fn(String) -> Outcome, message: &Message) -> Self {
+        Self::Ended(outcome(message.text.trim_end().to_owned()))
+    }
+
+    /// A row that cannot be written.
+    pub(crate) fn of_row(outcome: fn(String) -> Outcome, stop: Stop) -> Self {
+        match stop {
+            Stop::Output(error) => Self::Output(error),
+            Stop::NotFinite(text) => Self::Ended(outcome(format!("error: {text}"))),
+        }
+    }
+}
+
+impl<'a> Runner<'a> {
+    pub(crate) fn new(
+        session: &'a Session<'a>,
+        folder: &Path,
+        options: RunOptions,
+    ) -> Result<Self, OutputError> {
+        let project = session.project;
+        let dataset = project.dataset().clone();
+        let mut measures = session.measures.clone();
+        let source = project.model_source().name();
+        let lowered = lower(&dataset, source, &mut measures, Mode::Dynamic);
+        let lowered = lowered.map_err(|diagnostics| {
+            // The survey has lowered the same dataset.
+            OutputError::new(source, &format!("{} errors", diagnostics.len()))
+        })?;
+        let units = unit_names(&dataset);
+        let channels =
+            Channels::new(&dataset, &lowered, &units).map_err(|e| OutputError::new(source, &e))?;
+        let create = |extension: &str| {
+            let path = folder.join(format!("{}.{extension}", project.prefix()));
+            let shown = path.display().to_string();
+            let file = File::create(&path).map_err(|error| OutputError::new(&shown, &error))?;
+            Ok::<_, OutputError>((file, path, shown))
+        };
+        let (log, log_path, shown) = create("msg")?;
+        let version = env!("CARGO_PKG_VERSION");
+        let log = MessageWriter::new(log, "stiction", version, None)
+            .map_err(|error| OutputError::new(&shown, &error))?;
+        let log = Journal::new(log, shown);
+        let (res, res_path, shown) = create("res")?;
+        let header = Header {
+            title: dataset.title.clone(),
+            units: units.clone(),
+            ..Header::default()
+        };
+        let res = ResWriter::new(res, &header, channels.layout().clone())
+            .map_err(|error| OutputError::new(&shown, &error))?;
+        let (req, req_path, shown) = create("req")?;
+        let req = ReqWriter::new(req, &dataset.title, None, &units, channels.requests())
+            .map_err(|error| OutputError::new(&shown, &error))?;
+        let simulation = Simulation::new(lowered.model.clone(), second(&dataset));
+        let frictions = report::reports(&simulation.snapshot(), &units);
+        Ok(Self {
+            session,
+            options,
+            dataset,
+            measures,
+            changed: false,
+            simulation,
+            assembled: false,
+            instant: Recorded::Nothing,
+            length: 1.0,
+            simulations: 0,
+            started: Instant::now(),
+            last_end: last_end(project),
+            log,
+            recorder: Recorder {
+                res,
+                req,
+                files: vec![res_path, req_path, log_path],
+                channels,
+                outputs: lowered.outputs.clone(),
+                row: Row::default(),
+                frictions,
+                count: 0,
+            },
+            lowered,
+        })
+    }
+
+    pub(crate) fn commands(&mut self, watch: &mut dyn Watch) -> Result<Outcome, OutputError> {
+        let project = self.session.project;
+        self.recorder.model_input()?;
+        if project.is_dataset_alone() {
+            self.log_model()?;
+        }
+        for step in project.steps() {
+            self.log.command(&step.command.echo)?;
+            let done = match &step.command.kind {
+                CommandKind::Model { .. } => self.log_model().map_err(Halt::from),
+                CommandKind::Change(change) => self.change(change, step),
+                CommandKind::Simulate(simulate) => self.simulate(simulate, step, watch),
+                // The commands of the file follow.
+                CommandKind::CommandFile { .. } => Ok(()),
+                CommandKind::Stop => break,
+            };
+            match done {
+                Ok(()) => {}
+                Err(Halt::Ended(outcome)) => return Ok(outcome),
+                Err(Halt::Output(error)) => return Err(error),
+            }
+        }
+        Ok(Outcome::Completed)
+    }
+
+    /// Title, size of the model, defaults in use and warnings.
+    fn log_model(&mut self) -> Result<(), OutputError> {
+        self.log.model(&self.dataset, &self.lowered.model)?;
+        for message in self.session.warnings() {
+            self.log.message(message)?;
+        }
+        Ok(())
+    }
+
+    /// Makes a change of the model; prints what it asks for.
+    fn change(&mut self, change: &Change, step: &SourcedCommand) -> Result<(), Halt> {
+        let project = self.session.project;
+        // The survey has found nothing wrong with it, and its warnings have been told.
+        let _ = project.change(&mut self.dataset, change, step.source);
+        self.changed = true;
+        let ChangeKind::Friction { id, list: true, .. } = change.kind else {
+            return Ok(());
+        };
+        if let Some(text) = listing::friction(&self.dataset, id) {
+            self.log.note(&text)?;
+        }
+        Ok(())
+    }
+
+    fn simulate(
+        &mut self,
+        simulate: &Simulate,
+        step: &SourcedCommand,
+        watch: &mut dyn Watch,
+    ) -> Result<(), Halt> {
+        use SimulationKind as K;
+        let keyword = simulate.kind.keyword();
+        if simulate.kind == K::Settle {
+            let source = self.session.project.source(step.source);
+            let (line, column) = source.line_column(step.command.span.start);
+            return Err(Halt::refused(&format!(
+                "{}:{line}:{column}: SIMULATE/{keyword} is not simulated yet; the run ends here",
+                source.name()
+            )));
+        }
+        let start = self.simulation.state().time;
+        let span = settings::span(simulate, start).map_err(|text| Halt::refused(&text))?;
+        let mode = match (simulate.kind, span) {
+            (K::Static | K::QuasiStatic, None) => Mode::Static,
+            (K::Static | K::QuasiStatic, Some(_)) => Mode::QuasiStatic,
+            _ => Mode::Dynamic,
+        };
+        self.take_changes(mode)?;
+        if !self.assembled {
+            self.assemble()?;
+        }
+        if mode != Mode::Dynamic {
+            return self.equilibria(span, watch);
+        }
+        self.record_start()?;
+        let freedoms = self.simulation.system().degrees_of_freedom();
+        match (simulate.kind, freedoms) {
+            (K::InitialConditions, _) => return Ok(()),
+            (K::Kinematic | K::Transient, 0) => {
+                self.log.note("there are no degrees of freedom: the motion follows from the joints and motions; it is run as a dynamic simulation")?;
+            }
+            (K::Kinematic, _) => self.log.warning(&format!(
+                "SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"
+            ))?,
+            _ => {}
+        }
+        let span = span.ok_or_else(|| Halt::refused("SIMULATE needs END or DURATION"))?;
+        self.dynamic(span, watch)
+    }
+
+    /// Lowers the dataset again where commands have changed it, or where a function that reads MODE
+    /// is about to be read in another analysis.
+    fn take_changes(&mut self, mode: Mode) -> Result<(), Halt> {
+        let another = self.lowered.reads_mode && self.lowered.mode != mode;
+        if !std::mem::take(&mut self.changed) && !another {
+            return Ok(());
+        }
+        let source = self.session.project.model_source().name();
+        let lowered = lower(&self.dataset, source, &mut self.measures, mode);
+        let lowered = lowered.map_err(|diagnostics| {
+            let text: Vec<String> = diagnostics.into_iter().map(|d| d.message).collect();
+            Halt::refused(&text.join("; "))
+        })?;
+        let model = lowered.model.clone();
+        self.recorder.outputs = lowered.outputs.clone();
+        self.lowered = lowered;
+        if !self.assembled {
+            self.simulation = Simulation::new(model, second(&self.dataset));
+            return Ok(());
+        }
+        let assembled = self.simulation.replace_model(model);
+        let assembled = assembled.map_err(|error| self.not_assembled(&error))?;
+        assembled.map_or(Ok(()), |assembly| self.log_assembly(&assembly))
+    }
+
+    fn assemble(&mut self) -> Result<(), Halt> {
+        let assembly = self.simulation.assemble();
+        let assembly = assembly.map_err(|error| self.not_assembled(&error))?;
+        self.length = self.simulation.system().length_scale();
+        self.assembled = true;
+        self.log_assembly(&assembly)
+    }
+
+    fn not_assembled(&self, error: &AssemblyError) -> Halt {
+        let source = self.session.project.model_source();
+        let message = failure::of_assembly(&self.dataset, source, error);
+        Halt::located(Outcome::AssemblyFailed, &message)
+    }
+
+    fn log_assembly(&mut self, assembly: &Assembly) -> Result<(), Halt> {
+        let system = self.simulation.system();
+        self.log
+            .assembly(assembly, system.degrees_of_freedom(), system.model())?;
+        Ok(())
+    }
+
+    /// Solves and records the instant from which a motion starts, where it is not recorded as the
+    /// end of another one.
+    fn record_start(&mut self) -> Result<(), Halt> {
+        if self.instant == Recorded::Motion {
+            return Ok(());
+        }
+        let source = self.session.project.model_source();
+        self.simulation.solve_instant().map_err(|error| {
+            let message = failure::of_start(&self.dataset, source, &error);
+            Halt::located(Outcome::AssemblyFailed, &message)
+        })?;
+        let snapshot = self.simulation.snapshot();
+        let written = match self.instant {
+            // As in Adams the requests hold this time once.
+            Recorded::Equilibrium => self.recorder.initial_without_requests(&snapshot),
+            Recorded::Nothing | Recorded::Motion => self.recorder.initial(&snapshot),
+        };
+        written.map_err(|stop| Halt::of_row(Outcome::AssemblyFailed, stop))?;
+        self.instant = Recorded::Motion;
+        Ok(())
+    }
+
+    fn dynamic(&mut self, span: TimeSpan, watch: &mut dyn Watch) -> Result<(), Halt> {
+        let start = self.simulation.state().time;
+        let integrator = self.dataset.integrator.as_ref();
+        let choice = settings::choose(
+            integrator,
+            span.step,
+            self.options.error,
+            second(&self.dataset),
+        );
+        let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
+        self.log.begin(&choice.settings, &notes, start)?;
+        self.recorder.begin(DataKind::Dynamic)?;
+        let (end, times) = (span.end, span.outputs(start));
+        let rows = Observe {
+            recorder: &mut self.recorder,
+            log: &mut self.log,
+            watch,
+            started: self.started,
+            end: self.last_end,
+            next_row: start,
+            row_interval: (end - start) / TABLE_ROWS,
+            length: self.length,
+            stop: None,
+            interrupted: false,
+        };
+        let mut observer = Sensing {
+            rows,
+            sensors: Sensors::new(&self.dataset, &self.lowered.outputs),
+            ended: None,
+        };
+        let ran = self
+            .simulation
+            .run(end, &times, &choice.settings, &mut observer);
+        let Sensing { rows, ended, .. } = observer;
+        if let Some(stop) = rows.stop {
+            return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
+        }
+        match ran {
+            Ok(Ending::Stopped) if rows.interrupted => {
+                return Err(Halt::Ended(Outcome::Interrupted));
+            }
+            Ok(Ending::Completed | Ending::Stopped) => {}
+            Err(error) => {
+                let source = self.session.project.model_source();
+                let message = failure::of_run(&self.dataset, source, &error);
+                return Err(Halt::located(Outcome::IntegrationFailed, &message));
+            }
+        }
+        let halted = ended.is_some_and(|event| event.sensor.halts);
+        self.simulations += 1;
+        self.log.end(&self.simulation.statistics())?;
+        if halted {
+            return Err(Halt::Ended(Outcome::Completed));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn finish(mut self, outcome: Outcome) -> Result<RunReport, OutputError> {
+        let elapsed = self.started.elapsed().as_secs_f64();
+        let (status, text) = match &outcome {
+            Outcome::Completed => ("Successful", None),
+            Outcome::Interrupted => ("Interrupted", Some("interrupted; results so far are kept")),
+            Outcome::Refused(text) => ("Not simulated", Some(text.as_str())),
+            Outcome::AssemblyFailed(text) => ("Assembly failed", Some(text.as_str())),
+            Outcome::IntegrationFailed(text) => ("Integration failed", Some(text.as_str())),
+        };
+        let table = report::friction_table(&self.recorder.frictions);
+        self.log.finish(text, &table, elapsed)?;
+        let Recorder {
+            res,
+            frictions,
+            count,
+            files,
+            ..
+        } = self.recorder;
+        let path = files
+            .first()
+            .map(|path| path.display().to_string())
+            .unwrap_or_default();
+        res.finish(status)
+            .map_err(|error| OutputError::new(path, &error))?;
+        Ok(RunReport {
+            outcome,
+            time: self.simulation.state().time,
+            simulations: self.simulations,
+            outputs: count,
+            warnings: self.log.warnings(),
+            statistics: self.simulation.statistics(),
+            frictions,
+            files,
+            elapsed,
+        })
+    }
+}
+
+/// Time at which the last simulation of a project ends.
+fn last_end(project: &Project) -> f64 {
+    project.steps().iter().fold(0.0, |time, step| {
+        let CommandKind::Simulate(simulate) = &step.command.kind else {
+            return time;
+        };
+        let span = settings::span(simulate, time).ok().flatten();
+        span.map_or(time, |span| span.end)
+    })
+}

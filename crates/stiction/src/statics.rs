@@ -1,0 +1,103 @@
+//! Static and quasi-static simulations: one equilibrium, or one after another.
+
+use std::io::Write;
+
+use mechanics::{Observer, Snapshot};
+use results::DataKind;
+
+use crate::failure;
+use crate::recorder::{Observe, Recorder, Stop};
+use crate::runner::{Halt, Recorded, Runner};
+use crate::session::{Outcome, OutputError, Progress, Watch};
+use crate::settings::{self, TimeSpan};
+
+impl Runner<'_> {
+    /// Finds the equilibrium of the present time, or with a time span those at its start and at
+    /// its outputs; creep goes on from each to the next.
+    pub(crate) fn equilibria(
+        &mut self,
+        span: Option<TimeSpan>,
+        watch: &mut dyn Watch,
+    ) -> Result<(), Halt> {
+        let start = self.simulation.state().time;
+        let (settings, note) = settings::equilibrium(self.dataset.equilibrium.as_ref());
+        let (kind, times) = match span {
+            None => (DataKind::Static, vec![start]),
+            Some(span) => {
+                // An equilibrium that is recorded is where the sequence starts.
+                let first = (self.instant != Recorded::Equilibrium).then_some(start);
+                let times = first.into_iter().chain(span.outputs(start));
+                (DataKind::QuasiStatic, times.collect())
+            }
+        };
+        self.log.note("\nBegin Static Solution")?;
+        for note in note.into_iter().chain(span.and_then(|span| span.note())) {
+            self.log.note(&note)?;
+        }
+        for (place, time) in times.into_iter().enumerate() {
+            let found = self.simulation.find_equilibrium(time, &settings);
+            let found = found.map_err(|error| {
+                let source = self.session.project.model_source();
+                let message = failure::of_equilibrium(&self.dataset, source, &error);
+                Halt::located(Outcome::IntegrationFailed, &message)
+            })?;
+            if place == 0 {
+                self.recorder.begin(kind)?;
+            }
+            self.log.note(&format!(
+                "Static Solution at time {time} converged in {} iterations, residual imbalance \
+                 {:.5e}",
+                found.iterations, found.imbalance
+            ))?;
+            self.record_equilibrium(watch)?;
+        }
+        self.simulations += 1;
+        self.log.note("End Static Solution\n")?;
+        Ok(())
+    }
+
+    fn record_equilibrium(&mut self, watch: &mut dyn Watch) -> Result<(), Halt> {
+        let snapshot = self.simulation.snapshot();
+        let mut observer = Observe {
+            recorder: &mut self.recorder,
+            log: &mut self.log,
+            watch,
+            started: self.started,
+            end: self.last_end,
+            next_row: f64::INFINITY,
+            row_interval: f64::INFINITY,
+            length: self.length,
+            stop: None,
+            interrupted: false,
+        };
+        observer.output(&snapshot);
+        if let Some(stop) = observer.stop {
+            return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
+        }
+        self.instant = Recorded::Equilibrium;
+        let progress = Progress {
+            time: snapshot.time(),
+            end: self.last_end,
+            statistics: self.simulation.statistics(),
+        };
+        if watch.progress(&progress) {
+            Ok(())
+        } else {
+            Err(Halt::Ended(Outcome::Interrupted))
+        }
+    }
+}
+
+impl<W: Write> Recorder<W> {
+    /// The start of a motion from an equilibrium whose requests are written already.
+    pub(crate) fn initial_without_requests(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
+        self.begin(DataKind::InitialConditions)
+            .map_err(Stop::Output)?;
+        self.channels.fill(&self.outputs, snapshot, &mut self.row);
+        let written = self.res.step(snapshot.time(), &self.row.values);
+        written.map_err(|error| {
+            let path = self.files.first().map(|path| path.display().to_string());
+            Stop::Output(OutputError::new(path.unwrap_or_default(), &error))
+        })
+    }
+}
