@@ -44,7 +44,7 @@
 //! original formulation are our choice.
 
 use crate::original::Regime;
-use crate::vector::{delta, length_and_direction, matrix, natural_exp, power};
+use crate::vector::{delta, length_and_direction, natural_exp, power};
 
 /// Parameters of the LuGre law. Symbols in the [module](self) documentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,36 +126,39 @@ impl LuGre {
                 by_speed[k] = slope * load;
             }
         }
-        let divisor = level.map(|level| level + gamma * s0 * speed);
-        let reach: [f64; N] = core::array::from_fn(|k| past[k] + gamma * velocity[k]);
-        let deflection: [f64; N] = core::array::from_fn(|k| reach[k] * (level[k] / divisor[k]));
-        let rate: [f64; N] = core::array::from_fn(|k| {
-            velocity[k] * (level[k] / divisor[k]) - past[k] * (s0 * speed / divisor[k])
-        });
-        let by_velocity = matrix(|k, j| {
-            let level_change = by_speed[k] * unit[j];
-            let divisor_change = level_change + gamma * s0 * unit[j];
-            let z = gamma * delta(k, j) * level[k] + reach[k] * level_change
-                - deflection[k] * divisor_change;
-            let z_rate = delta(k, j) * level[k] + velocity[k] * level_change
-                - s0 * unit[j] * past[k]
-                - rate[k] * divisor_change;
-            -(s0 * z + s1 * z_rate) / divisor[k] - s2 * delta(k, j)
-        });
-        Bristles {
-            force: core::array::from_fn(|k| {
-                -(s0 * deflection[k] + s1 * rate[k] + s2 * velocity[k])
-            }),
-            deflection,
-            rate,
+        let factor = gamma * s0;
+        let mut bristles = Bristles {
+            force: [0.0; N],
+            deflection: [0.0; N],
+            rate: [0.0; N],
             coefficient,
-            by_velocity,
-            by_load: core::array::from_fn(|k| {
-                let z = reach[k] - deflection[k];
-                let z_rate = velocity[k] - rate[k];
-                -by_load[k] * (s0 * z + s1 * z_rate) / divisor[k]
-            }),
+            by_velocity: [[0.0; N]; N],
+            by_load: [0.0; N],
+        };
+        for k in 0..N {
+            let divisor = level[k] + factor * speed;
+            let inverse = 1.0 / divisor;
+            // A quotient, not a product: exactly one at rest, where the bristles must not creep.
+            let share = level[k] / divisor;
+            let reach = past[k] + gamma * velocity[k];
+            let z = reach * share;
+            let rate = velocity[k] * share - past[k] * (s0 * speed * inverse);
+            bristles.deflection[k] = z;
+            bristles.rate[k] = rate;
+            bristles.force[k] = -(s0 * z + s1 * rate + s2 * velocity[k]);
+            let z_by_level = reach - z;
+            let rate_by_level = velocity[k] - rate;
+            let by_level = -(s0 * z_by_level + s1 * rate_by_level) * inverse;
+            bristles.by_load[k] = by_load[k] * by_level;
+            // The velocity acts by its own component, and by the speed on level and decay.
+            let own = -(factor + s1) * share - s2;
+            let decay = (s0 * gamma * z + s1 * (past[k] + gamma * rate)) * s0 * inverse;
+            let by_velocity = by_speed[k] * by_level + decay;
+            for j in 0..N {
+                bristles.by_velocity[k][j] = own * delta(k, j) + by_velocity * unit[j];
+            }
         }
+        bristles
     }
 
     /// The Stribeck curve `g(v)` at the surface speed `v` (length/time), and its slope.

@@ -56,20 +56,23 @@ impl<const N: usize> Resultant<N> {
         clipped: false,
     };
 
-    /// Limits the length of the components in `group` to `maximum`. A clipped vector keeps its
-    /// direction only: the part of a derivative along it is taken out. Returns whether it did.
+    /// Limits the length of the components in `group` to `maximum`. Returns whether it did.
+    #[inline(always)]
     fn clip(&mut self, group: Range<usize>, maximum: f64) -> bool {
-        let part: [f64; N] = core::array::from_fn(|k| {
-            if group.contains(&k) {
-                self.force[k]
-            } else {
-                0.0
-            }
-        });
+        let mut part = [0.0; N];
+        part[group.clone()].copy_from_slice(&self.force[group.clone()]);
         let magnitude = length(&part);
-        if !(magnitude > maximum) {
-            return false;
+        let clips = magnitude > maximum;
+        if clips {
+            self.shorten(group, &part, magnitude, maximum);
         }
+        clips
+    }
+
+    /// Gives `part`, the components in `group`, the length `maximum` instead of `magnitude`. A clipped
+    /// vector keeps its direction only: the part of a derivative along it is taken out.
+    #[cold]
+    fn shorten(&mut self, group: Range<usize>, part: &[f64; N], magnitude: f64, maximum: f64) {
         self.clipped = true;
         let unit = part.map(|c| c / magnitude);
         let scale = maximum / magnitude;
@@ -92,10 +95,10 @@ impl<const N: usize> Resultant<N> {
                 }
             }
         }
-        true
     }
 
     /// Sets the components in `group` from a coefficient.
+    #[inline(always)]
     fn take(
         &mut self,
         c: &Coefficient<N>,
