@@ -70,6 +70,9 @@ const PIECES: &[&str] = &[
     "CNAMES = \"",
     "file/model=",
     "sim/dyn, ",
+    "deactivate/sensor, id=",
+    "FRICTION(1, 27)",
+    "LIST",
 ];
 
 /// Small texts of our own, so that there is something to damage everywhere.
@@ -82,9 +85,12 @@ const EXAMPLES: &[&str] = &[
      , ACTIONONLY\nVARIABLE/1, FUNCTION=IF(TIME-1: 0, DX(2,1,1), -VARVAL(2)**2)\n\
      VARIABLE/2, IC=1, FUNCTION=JOINT(1,0,2,0)\nREQUEST/1, F2=TIME\\F3=VARVAL(1)\\,C=a text\n\
      REQUEST/2, D, I=2, J=1, CNAMES=\"a\", \"b\"\nINTEGRATOR/GSTIFF, PATTERN=T:F, ERROR=1E-4\n\
+     SENSOR/1, GE, VALUE=1, FUNCTION=FRICTION(1, 6)\\, HALT\n\
      GRAPHICS/1, CYLINDER, CM=1, LENGTH=2\nACCGRAV/KGRAV=-9.81\nOUTPUT/REQSAVE\nEND\n",
     "\nfile/model=slider\nsimulate/initial_conditions\nvariable/1, function=2*TIME &\n, + 1\n\
-     int/hht, err=1E-7, interpolate=on\nsim/dyn, end=1.5, dtout=.005\nsim/stat\nstop\n",
+     int/hht, err=1E-7, interpolate=on\nsim/dyn, end=1.5, dtout=.005\nsim/stat\n\
+     deactivate/joint, range=1,9\nactivate/friction, id=1,2\nfriction/1, list\n\
+     equil/stab=1E-3\nstop\n",
     "FRICTION/1, MU_STATIC=0.2, EFFECT=SLIDING; ",
 ];
 
