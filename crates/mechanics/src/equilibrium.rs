@@ -63,6 +63,8 @@ pub(crate) struct Statics {
     right: Vec<f64>,
     change: Vec<f64>,
     zero: Vec<f64>,
+    /// A force that is typical of the model: the imbalances are compared by it.
+    force: f64,
 }
 
 impl Statics {
@@ -75,10 +77,12 @@ impl Statics {
             right: vec![0.0; size],
             change: vec![0.0; size],
             zero: vec![0.0; n],
+            force: 1.0,
         }
     }
 
-    /// Moves `state` (at rest) to an equilibrium; `length` is typical of the model.
+    /// Moves `state` (at rest) to an equilibrium, from reactions that are those of the start when
+    /// the model is let go there; `length` is typical of the model.
     pub(crate) fn solve(
         &mut self,
         system: &mut System,
@@ -90,6 +94,7 @@ impl Statics {
         let mut stability = settings.stability;
         let mut polished = 0;
         let mut moved = f64::INFINITY;
+        self.force = system.typical_force(multipliers);
         for iteration in 0..settings.iterations {
             let merit = self.residual(system, state, multipliers, length)?;
             let imbalance = self.imbalance(system);
@@ -112,8 +117,8 @@ impl Statics {
             );
             match step {
                 Ok(size) => moved = size,
-                // No step makes it better: rounding where it is good enough already.
-                Err(_) if balanced => return Ok(report),
+                // No step makes it better: rounding, where it is good enough already.
+                Err(_) if imbalance <= settings.imbalance => return Ok(report),
                 Err(failure) => return Err(failure),
             }
             polished += usize::from(balanced);
@@ -235,7 +240,7 @@ impl Statics {
                 element: system.find_not_a_number(),
             });
         }
-        let weight = system.weight_scale(multipliers);
+        let weight = self.force;
         let forces = self.right[..n].chunks_exact(VELOCITIES).map(|body| {
             let force = Vector3::from_column_slice(&body[..3]).norm() / weight;
             let torque = Vector3::from_column_slice(&body[3..]).norm() / (weight * length);
@@ -262,11 +267,15 @@ fn largest_of(values: &[f64]) -> f64 {
 }
 
 impl System {
-    /// A force that is typical of the instant: the weights and reactions.
-    fn weight_scale(&self, multipliers: &[f64]) -> f64 {
+    /// The larger of weights, forces and reactions at the instant evaluated last.
+    fn typical_force(&mut self, multipliers: &[f64]) -> f64 {
         let weights = self.model.bodies.iter().map(|body| body.mass);
         let weight = weights.sum::<f64>() * self.model.gravity.norm();
-        weight.max(largest_of(multipliers)).max(1e-12)
+        let applied: Vec<f64> = (0..self.model.forces.len())
+            .map(|place| self.force_value(place))
+            .collect();
+        let largest = largest_of(multipliers).max(largest_of(&applied)).max(weight);
+        if largest > 0.0 { largest } else { 1.0 }
     }
 
     /// What may keep the model from an equilibrium, for the message of a failure.

@@ -197,11 +197,20 @@ impl Simulation {
         let reactions = self.multipliers.clone();
         self.state.time = time;
         self.state.velocities_mut().fill(0.0);
-        let bristles = self.state.bristle_range();
-        self.system.set_statics(true);
-        self.system.set_bristles(&self.state.values[bristles], 0.0);
         self.system.evaluate(&self.state, false);
         self.system.stick_all();
+        // Reactions to start from: without them no joint has a load, and no friction holds. Where
+        // they cannot be found they stay what they were.
+        let guess = Instant::new(&self.system).accelerations(
+            &mut self.system,
+            &self.state,
+            &mut self.accelerations,
+            &mut self.multipliers,
+        );
+        if guess.is_err() {
+            self.multipliers.clone_from(&reactions);
+        }
+        self.system.set_statics(true);
         let solved = Statics::new(&self.system).solve(
             &mut self.system,
             &mut self.state,

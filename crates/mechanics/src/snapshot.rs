@@ -7,7 +7,7 @@ use crate::constraint::Owner;
 use crate::expression::{Input, Program};
 use crate::joint_friction::Values;
 use crate::measure::{self, MarkerAcceleration, Order};
-use crate::model::Model;
+use crate::model::{Element, Model};
 use crate::state::{MarkerFrame, State};
 use crate::system::System;
 
@@ -131,6 +131,9 @@ impl<'a> Snapshot<'a> {
     /// I, ground axes.
     #[must_use]
     pub fn applied(&self, force: usize) -> Wrench {
+        if !self.model().is_active(Element::Force(force)) {
+            return Wrench::default();
+        }
         let element = &self.model().forces[force];
         let (i, value) = (self.marker(element.i), self.force_value(force));
         let local = self.system.force_direction(element) * value;

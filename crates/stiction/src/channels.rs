@@ -162,7 +162,7 @@ impl Channels {
                 .map(|variable| at(outputs.variables[*variable])),
         );
         for friction in 0..snapshot.model().frictions.len() {
-            values.extend_from_slice(&wrenches.friction(friction));
+            values.extend_from_slice(&wrenches.components(friction));
         }
         row.requests.clear();
         for request in &outputs.requests {

@@ -2,8 +2,6 @@
 
 use friction::Regime;
 use mechanics::Snapshot;
-use mechanics::model::FrictionJoint;
-use nalgebra::Vector3;
 use results::UnitNames;
 
 /// What the friction of one joint did during a run, seen at the output times.
@@ -42,9 +40,10 @@ pub(crate) fn reports(snapshot: &Snapshot<'_>, units: &UnitNames) -> Vec<Frictio
         peak: 0.0,
         peak_time: snapshot.time(),
         time_unit: units.time.clone(),
-        unit: match friction.load {
-            FrictionJoint::Translational(_) => units.force.clone(),
-            FrictionJoint::Revolute(_) | FrictionJoint::Spherical(_) => units.torque(),
+        unit: if friction.load.has_force_load() {
+            units.force.clone()
+        } else {
+            units.torque()
         },
         energy_unit: units.torque(),
         regimes: [0; 3],
@@ -59,9 +58,9 @@ pub(crate) fn reports(snapshot: &Snapshot<'_>, units: &UnitNames) -> Vec<Frictio
 pub(crate) fn add(reports: &mut [FrictionReport], snapshot: &Snapshot<'_>) {
     for (place, report) in reports.iter_mut().enumerate() {
         let values = snapshot.friction(place);
-        let arm = snapshot.model().frictions[place].load.arm();
-        let force = Vector3::from(values.force);
-        let power = -force.dot(&Vector3::from(values.velocity)) / arm;
+        let slides = snapshot.model().frictions[place].load.has_force_load();
+        let force = if slides { values.force } else { values.torque };
+        let power = values.power;
         if force.norm() > report.peak {
             report.peak = force.norm();
             report.peak_time = snapshot.time();

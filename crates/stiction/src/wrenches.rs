@@ -1,7 +1,7 @@
 //! Forces and torques of every element at a solved instant.
 
 use friction::Regime;
-use mechanics::model::{ForceKind, FrictionJoint};
+use mechanics::model::ForceKind;
 use mechanics::state::MarkerFrame;
 use mechanics::{FrictionValues, Owner, Snapshot, Wrench};
 use nalgebra::Vector3;
@@ -133,56 +133,33 @@ impl<'a> Wrenches<'a> {
 
     /// Friction as a force and torque on I, ground axes.
     fn friction_on_i(&self, place: usize) -> Wrench {
-        let (values, j) = (&self.frictions[place], self.joint_axes(place));
-        let z = j.axis(2);
-        match self.snapshot.model().frictions[place].load {
-            FrictionJoint::Translational(_) => Wrench {
-                force: values.force[0] * z,
-                torque: Vector3::zeros(),
-            },
-            FrictionJoint::Revolute(_) => Wrench {
-                force: Vector3::zeros(),
-                torque: values.force[0] * z,
-            },
-            FrictionJoint::Spherical(_) => Wrench {
-                force: Vector3::zeros(),
-                torque: j.axes * Vector3::from(values.force),
-            },
+        let model = self.snapshot.model();
+        let values = &self.frictions[place];
+        let j = self.marker(model.joints[model.frictions[place].joint].j);
+        Wrench {
+            force: j.axes * values.force,
+            torque: j.axes * values.torque,
         }
     }
 
-    fn joint_axes(&self, friction: usize) -> MarkerFrame {
-        let model = self.snapshot.model();
-        self.marker(model.joints[model.frictions[friction].joint].j)
+    /// Friction of a joint.
+    pub(crate) fn friction(&self, place: usize) -> &FrictionValues {
+        &self.frictions[place]
     }
 
     /// The 26 components of a friction in the order of the `.res`: force and torque along the axes
-    /// of J; of a spherical joint coefficient, surface velocity and creep along the axes of I as
-    /// they stood, relative to J, where the stick began (as they stand while it slides).
-    pub(crate) fn friction(&self, place: usize) -> [f64; 26] {
+    /// of J, then coefficient, surface velocity and creep, each of sliding and of turning.
+    pub(crate) fn components(&self, place: usize) -> [f64; 26] {
         let values = &self.frictions[place];
         let mut row = [0.0; 26];
-        // Places of force, coefficient, velocity and creep: translational, or three further.
-        let starts = [0, 6, 13, 19];
-        let vectors = [values.force, values.mu, values.velocity, values.creep];
-        match self.snapshot.model().frictions[place].load {
-            FrictionJoint::Translational(_) => {
-                for (start, vector) in starts.iter().zip(vectors) {
-                    row[start + 2] = vector[0];
-                }
-            }
-            FrictionJoint::Revolute(_) => {
-                for (start, vector) in starts.iter().zip(vectors) {
-                    row[start + 5] = vector[0];
-                }
-            }
-            FrictionJoint::Spherical(_) => {
-                row[3..6].copy_from_slice(&values.force);
-                for (start, vector) in starts.iter().zip(vectors).skip(1) {
-                    let along_i = values.anchor.transpose() * Vector3::from(vector);
-                    row[start + 3..start + 6].copy_from_slice(along_i.as_slice());
-                }
-            }
+        let mut put = |start: usize, vector: &Vector3<f64>| {
+            row[start..start + 3].copy_from_slice(vector.as_slice());
+        };
+        put(0, &values.force);
+        put(3, &values.torque);
+        for (start, vector) in [(6, &values.mu), (13, &values.velocity), (19, &values.creep)] {
+            put(start, &vector.translation);
+            put(start + 3, &vector.rotation);
         }
         row[12] = if values.regime == Regime::Stuck {
             values.mu1

@@ -1,119 +1,124 @@
 //! FRICTION to the law and the load of the crate `friction`.
 
-use dataset::{Code, Effect, Formulation, Friction, FrictionQuantity, JointKind, OverlapDelta};
-use friction::{Inputs, Original, RevoluteLoad, SphericalLoad, TranslationalLoad};
-use mechanics::model::{self, FrictionJoint};
+use dataset::{
+    Effect, Formulation, Friction, FrictionQuantity as Quantity, JointKind, OverlapDelta, Yoke,
+};
+use friction::{
+    CylindricalLoad, Inputs, LuGre, Original, RevoluteLoad, SphericalLoad, TranslationalLoad,
+};
+use mechanics::model::{self, Axis, ForceAndTorque, FrictionJoint, Law};
 
 use super::{Lowering, label};
 
 impl Lowering<'_> {
     /// Frictions in the order of the dataset.
     pub(super) fn frictions(&mut self, model: &mut model::Model) {
-        let dataset = self.dataset;
-        for friction in &dataset.frictions {
-            let (Some(law), Some(load)) = (self.law(friction), self.load(friction)) else {
+        for friction in &self.dataset.frictions {
+            // What has no friction was refused when the dataset was read.
+            let Some(load) = self.load(friction) else {
                 continue;
             };
-            let Some(joint) = dataset.joints.position(friction.joint) else {
+            let Some(joint) = self.dataset.joints.position(friction.joint) else {
                 continue;
             };
-            let sliding = matches!(load, FrictionJoint::Translational(_));
-            let (preload, maximum) = if sliding {
-                (
-                    FrictionQuantity::FrictionForcePreload,
-                    FrictionQuantity::MaxFrictionForce,
-                )
-            } else {
-                (
-                    FrictionQuantity::FrictionTorquePreload,
-                    FrictionQuantity::MaxFrictionTorque,
-                )
+            let preload = |quantity| {
+                if friction.inputs.preload {
+                    friction.value(quantity)
+                } else {
+                    0.0
+                }
             };
             model.frictions.push(model::Friction {
                 label: label("FRICTION", &friction.header),
                 joint,
-                law,
+                law: law(friction),
                 load,
-                preload: if friction.inputs.preload {
-                    friction.value(preload)
-                } else {
-                    0.0
+                preload: ForceAndTorque {
+                    force: preload(Quantity::FrictionForcePreload),
+                    torque: preload(Quantity::FrictionTorquePreload),
                 },
-                maximum: friction.value(maximum),
+                maximum: ForceAndTorque {
+                    force: friction.value(Quantity::MaxFrictionForce),
+                    torque: friction.value(Quantity::MaxFrictionTorque),
+                },
+                inactive_static: friction.inactive_static,
             });
         }
     }
 
-    /// The formulations: FORMULATION=LUGRE belongs here.
-    fn law(&mut self, friction: &Friction) -> Option<Original> {
-        match friction.formulation {
-            Formulation::Original => Some(Original {
-                mu_static: friction.mu_static,
-                mu_dynamic: friction.mu_dynamic,
-                transition_velocity: friction.value(FrictionQuantity::StictionTransitionVelocity),
-                transition_coefficient: friction
-                    .value(FrictionQuantity::TransitionVelocityCoefficient),
-                max_deformation: friction.value(FrictionQuantity::MaxStictionDeformation),
-                effect: match friction.effect {
-                    Effect::All => friction::Effect::All,
-                    Effect::Stiction => friction::Effect::Stiction,
-                    Effect::Sliding => friction::Effect::Sliding,
-                },
-            }),
-            Formulation::LuGre => {
-                self.not_yet(friction, "FORMULATION=LUGRE is", "FORMULATION=ORIGINAL");
-                None
-            }
-        }
-    }
-
-    /// The joints: friction in CYLINDRICAL, HOOKE and UNIVERSAL belongs here.
-    fn load(&mut self, friction: &Friction) -> Option<FrictionJoint> {
+    /// The load of the friction's joint.
+    fn load(&self, friction: &Friction) -> Option<FrictionJoint> {
         let inputs = Inputs {
             preload: friction.inputs.preload,
             reaction_force: friction.inputs.reaction_force,
             bending_moment: friction.inputs.bending_moment,
             torsional_moment: friction.inputs.torsional_moment,
         };
+        let overlap_sign = match friction.overlap_delta {
+            OverlapDelta::Constant => 0.0,
+            OverlapDelta::Increase => 1.0,
+            OverlapDelta::Decrease => -1.0,
+        };
+        let pin = RevoluteLoad {
+            inputs,
+            pin_radius: friction.value(Quantity::PinRadius),
+            friction_arm: friction.value(Quantity::FrictionArm),
+            bending_reaction_arm: friction.value(Quantity::BendingReactionArm),
+        };
         let joint = self.dataset.joints.by_id(friction.joint)?;
-        Some(match joint.kind {
-            JointKind::Translational => FrictionJoint::Translational(TranslationalLoad {
+        Some(match (joint.kind, friction.yoke) {
+            (JointKind::Translational, _) => FrictionJoint::Translational(TranslationalLoad {
                 inputs,
-                reaction_arm: friction.value(FrictionQuantity::ReactionArm),
-                bending_factor: friction.value(FrictionQuantity::BendingFactor),
-                initial_overlap: friction.value(FrictionQuantity::InitialOverlap),
-                overlap_sign: match friction.overlap_delta {
-                    OverlapDelta::Constant => 0.0,
-                    OverlapDelta::Increase => 1.0,
-                    OverlapDelta::Decrease => -1.0,
-                },
+                reaction_arm: friction.value(Quantity::ReactionArm),
+                bending_factor: friction.value(Quantity::BendingFactor),
+                initial_overlap: friction.value(Quantity::InitialOverlap),
+                overlap_sign,
             }),
-            JointKind::Revolute => FrictionJoint::Revolute(RevoluteLoad {
+            (JointKind::Cylindrical, _) => FrictionJoint::Cylindrical(CylindricalLoad {
                 inputs,
-                pin_radius: friction.value(FrictionQuantity::PinRadius),
-                friction_arm: friction.value(FrictionQuantity::FrictionArm),
-                bending_reaction_arm: friction.value(FrictionQuantity::BendingReactionArm),
+                pin_radius: friction.value(Quantity::PinRadius),
+                bending_factor: friction.value(Quantity::BendingFactor),
+                initial_overlap: friction.value(Quantity::InitialOverlap),
+                overlap_sign,
             }),
-            JointKind::Spherical => FrictionJoint::Spherical(SphericalLoad {
+            (JointKind::Revolute, _) => FrictionJoint::Revolute(pin),
+            (JointKind::Spherical, _) => FrictionJoint::Spherical(SphericalLoad {
                 inputs,
-                ball_radius: friction.value(FrictionQuantity::BallRadius),
+                ball_radius: friction.value(Quantity::BallRadius),
             }),
-            other => {
-                let what = format!("friction in {} joints is", other.keyword());
-                let instead = "TRANSLATIONAL, REVOLUTE and SPHERICAL joints";
-                self.not_yet(friction, &what, instead);
-                return None;
-            }
+            (JointKind::Hooke, Some(Yoke::I)) => FrictionJoint::Pin(Axis::HookeI, pin),
+            (JointKind::Hooke, Some(Yoke::J)) => FrictionJoint::Pin(Axis::HookeJ, pin),
+            (JointKind::Universal, Some(Yoke::I)) => FrictionJoint::Pin(Axis::UniversalI, pin),
+            (JointKind::Universal, Some(Yoke::J)) => FrictionJoint::Pin(Axis::UniversalJ, pin),
+            _ => return None,
         })
     }
+}
 
-    fn not_yet(&mut self, friction: &Friction, what: &str, instead: &str) {
-        self.error(
-            Code::UnsupportedStatement,
-            friction.header.span,
-            format!("FRICTION/{}: {what} not simulated yet", friction.header.id),
-            Some(&format!("friction is simulated with {instead}")),
-        );
+/// The law of the friction's FORMULATION.
+fn law(friction: &Friction) -> Law {
+    match friction.formulation {
+        Formulation::Original => Law::Original(Original {
+            mu_static: friction.mu_static,
+            mu_dynamic: friction.mu_dynamic,
+            transition_velocity: friction.value(Quantity::StictionTransitionVelocity),
+            transition_coefficient: friction.value(Quantity::TransitionVelocityCoefficient),
+            max_deformation: friction.value(Quantity::MaxStictionDeformation),
+            effect: match friction.effect {
+                Effect::All => friction::Effect::All,
+                Effect::Stiction => friction::Effect::Stiction,
+                Effect::Sliding => friction::Effect::Sliding,
+            },
+        }),
+        Formulation::LuGre => Law::LuGre(LuGre {
+            mu_static: friction.mu_static,
+            mu_dynamic: friction.mu_dynamic,
+            bristle_stiffness: friction.value(Quantity::BristleStiffnessCoefficient),
+            damping: friction.value(Quantity::DampingCoefficient),
+            viscous: friction.value(Quantity::ViscousFrictionCoefficient),
+            stribeck_velocity: friction.value(Quantity::VelocityThresholdStribeck),
+            stribeck_exponent: friction.value(Quantity::DecayExponentStribeck),
+        }),
     }
 }
 

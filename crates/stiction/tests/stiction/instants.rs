@@ -55,7 +55,7 @@ fn place(simulation: &mut Simulation, real: &Table, row: usize) {
     }
     values.extend(velocities);
     let time = real.times[row];
-    simulation.set_state(State { time, values }, &[]);
+    simulation.set_state(State::new(time, values), &[]);
     // Creep is printed along the axes of I where the stick began, and kept along those of J. It
     // is along the axis of the rotation between them, or nearly so.
     let creep: Vec<[f64; 3]> = simulation
@@ -92,7 +92,7 @@ fn compare(simulation: &Simulation, real: &Table, row: usize) -> Differences {
     for (place, friction) in model.frictions.iter().enumerate() {
         let name = format!("Friction/{}.", friction.label.id);
         let theirs = Vector3::from(real.vector(row, &name, ["TX", "TY", "TZ"]));
-        pairs[2].push((Vector3::from(snapshot.friction(place).force), theirs));
+        pairs[2].push((snapshot.friction(place).torque, theirs));
     }
     let [acceleration, force, torque] = pairs.map(|pairs| {
         let largest = pairs.iter().fold(0.0_f64, |m, (_, b)| m.max(b.amax()));
