@@ -17,7 +17,7 @@ use crate::message::Message;
 use crate::project::{Project, SourcedCommand, second};
 use crate::recorder::{Observe, Recorder, Stop};
 use crate::report;
-use crate::sensors::{Sensing, Sensors};
+use crate::sensors::{Effect, Sensing, Sensors};
 use crate::session::{Outcome, OutputError, RunOptions, RunReport, Session, Watch};
 use crate::settings::{self, TimeSpan};
 
@@ -30,7 +30,7 @@ pub(crate) struct Runner<'a> {
     options: RunOptions,
     pub(crate) dataset: Dataset,
     measures: Measures,
-    lowered: Lowered,
+    pub(crate) lowered: Lowered,
     /// Whether the dataset has changed since it was lowered.
     changed: bool,
     pub(crate) simulation: Simulation,
@@ -77,6 +77,14 @@ impl Halt {
     /// A failure with its place.
     pub(crate) fn located(outcome: fn(String) -> Outcome, message: &Message) -> Self {
         Self::Ended(outcome(message.text.trim_end().to_owned()))
+    }
+
+    /// What an event does to the run after the simulation that it has ended.
+    pub(crate) fn of_event(effect: Effect) -> Result<(), Self> {
+        match effect {
+            Effect::None | Effect::Return => Ok(()),
+            Effect::Halt => Err(Self::Ended(Outcome::Completed)),
+        }
     }
 
     /// A row that cannot be written.
@@ -348,13 +356,13 @@ impl<'a> Runner<'a> {
         };
         let mut observer = Sensing {
             rows,
-            sensors: Sensors::new(&self.dataset, &self.lowered.outputs),
-            ended: None,
+            sensors: &mut Sensors::new(&self.dataset, &self.lowered.outputs),
+            effect: Effect::None,
         };
         let ran = self
             .simulation
             .run(end, &times, &choice.settings, &mut observer);
-        let Sensing { rows, ended, .. } = observer;
+        let Sensing { rows, effect, .. } = observer;
         if let Some(stop) = rows.stop {
             return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
         }
@@ -369,13 +377,9 @@ impl<'a> Runner<'a> {
                 return Err(Halt::located(Outcome::IntegrationFailed, &message));
             }
         }
-        let halted = ended.is_some_and(|event| event.sensor.halts);
         self.simulations += 1;
         self.log.end(&self.simulation.statistics())?;
-        if halted {
-            return Err(Halt::Ended(Outcome::Completed));
-        }
-        Ok(())
+        Halt::of_event(effect)
     }
 
     pub(crate) fn finish(mut self, outcome: Outcome) -> Result<RunReport, OutputError> {

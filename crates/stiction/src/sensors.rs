@@ -1,4 +1,4 @@
-//! SENSORs: events that are looked for at the outputs of a motion.
+//! SENSORs: events that are looked for at the outputs of a simulation.
 
 use std::io::Write;
 
@@ -12,15 +12,15 @@ use crate::wrenches::Wrenches;
 
 /// The active sensors of a simulation.
 #[derive(Clone, Debug)]
-pub(crate) struct Sensors<'a> {
-    watched: Vec<Watched<'a>>,
+pub(crate) struct Sensors {
+    watched: Vec<Watched>,
     outputs: Outputs,
 }
 
 /// A sensor while a simulation runs.
 #[derive(Clone, Debug)]
-struct Watched<'a> {
-    sensor: &'a Sensor,
+struct Watched {
+    sensor: Sensor,
     function: Program,
     /// Function less VALUE at the output before.
     before: Option<f64>,
@@ -28,58 +28,53 @@ struct Watched<'a> {
     held: bool,
 }
 
+/// What an event does to a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Effect {
+    /// Nothing.
+    None,
+    /// RETURN: it ends the simulation.
+    Return,
+    /// HALT: it ends the run.
+    Halt,
+}
+
 /// A sensor whose event has occurred.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Event<'a> {
-    /// The sensor.
-    pub(crate) sensor: &'a Sensor,
-    /// When.
-    time: f64,
-    /// The value of its function.
-    function: f64,
+#[derive(Clone, Debug)]
+pub(crate) struct Event {
+    /// What it does.
+    pub(crate) effect: Effect,
+    /// What to tell about it.
+    pub(crate) text: String,
 }
 
-impl Event<'_> {
-    /// Whether it ends the simulation.
-    pub(crate) fn ends(&self) -> bool {
-        self.sensor.returns || self.sensor.halts
-    }
-}
-
-impl std::fmt::Display for Event<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Sensor {
-            header,
-            comparison,
-            value,
-            ..
-        } = self.sensor;
-        let then = match (self.sensor.halts, self.sensor.returns) {
-            (true, _) => "; HALT: the run ends here",
-            (false, true) => "; RETURN: the simulation ends here",
-            (false, false) => "",
+impl Event {
+    fn new(sensor: &Sensor, time: f64, function: f64) -> Self {
+        let (effect, then) = match (sensor.halts, sensor.returns) {
+            (true, _) => (Effect::Halt, "; HALT: the run ends here"),
+            (false, true) => (Effect::Return, "; RETURN: the simulation ends here"),
+            (false, false) => (Effect::None, ""),
         };
-        write!(
-            f,
-            "SENSOR/{} at time {}: its function is {} ({} {value}){then}",
-            header.id,
-            self.time,
-            self.function,
-            comparison.keyword(),
-        )
+        let text = format!(
+            "SENSOR/{} at time {time}: its function is {function} ({} {}){then}",
+            sensor.header.id,
+            sensor.comparison.keyword(),
+            sensor.value,
+        );
+        Self { effect, text }
     }
 }
 
-impl<'a> Sensors<'a> {
+impl Sensors {
     /// The active sensors of a dataset, whose functions are in `outputs`.
-    pub(crate) fn new(dataset: &'a Dataset, outputs: &Outputs) -> Self {
+    pub(crate) fn new(dataset: &Dataset, outputs: &Outputs) -> Self {
         let all = dataset.sensors.iter().zip(&outputs.sensors);
         let active =
             all.filter(|(sensor, _)| dataset.is_active(Switchable::Sensor, sensor.header.id));
         Self {
             watched: active
                 .map(|(sensor, function)| Watched {
-                    sensor,
+                    sensor: sensor.clone(),
                     function: function.clone(),
                     before: None,
                     held: false,
@@ -91,14 +86,14 @@ impl<'a> Sensors<'a> {
 
     /// The events that begin at an instant. One of EQ is also that the function has passed VALUE
     /// since the output before; none is told again while it lasts.
-    pub(crate) fn events(&mut self, snapshot: &Snapshot<'_>) -> Vec<Event<'a>> {
+    pub(crate) fn events(&mut self, snapshot: &Snapshot<'_>) -> Vec<Event> {
         if self.watched.is_empty() {
             return Vec::new();
         }
         let wrenches = Wrenches::new(snapshot);
         let mut events = Vec::new();
         for watched in &mut self.watched {
-            let sensor = watched.sensor;
+            let sensor = &watched.sensor;
             let results = |number: usize| self.outputs.results[number].value(&wrenches);
             let function = snapshot.evaluate(&watched.function, &results);
             let difference = function - sensor.value;
@@ -113,12 +108,8 @@ impl<'a> Sensors<'a> {
                 }
             };
             watched.before = Some(difference);
-            if holds && !std::mem::replace(&mut watched.held, holds) {
-                events.push(Event {
-                    sensor,
-                    time: snapshot.time(),
-                    function,
-                });
+            if holds && !watched.held {
+                events.push(Event::new(sensor, snapshot.time(), function));
             }
             watched.held = holds;
         }
@@ -127,14 +118,14 @@ impl<'a> Sensors<'a> {
 }
 
 /// Takes steps and outputs to the files and looks for events at the outputs.
-pub(crate) struct Sensing<'a, 's, W: Write> {
+pub(crate) struct Sensing<'a, W: Write> {
     pub(crate) rows: Observe<'a, W>,
-    pub(crate) sensors: Sensors<'s>,
-    /// The event that ended the simulation.
-    pub(crate) ended: Option<Event<'s>>,
+    pub(crate) sensors: &'a mut Sensors,
+    /// What events have done to the run.
+    pub(crate) effect: Effect,
 }
 
-impl<W: Write> Observer for Sensing<'_, '_, W> {
+impl<W: Write> Observer for Sensing<'_, W> {
     fn step(&mut self, report: &StepReport) -> bool {
         self.rows.step(report)
     }
@@ -144,14 +135,12 @@ impl<W: Write> Observer for Sensing<'_, '_, W> {
             return false;
         }
         for event in self.sensors.events(snapshot) {
-            if let Err(error) = self.rows.log.note(&event.to_string()) {
+            if let Err(error) = self.rows.log.note(&event.text) {
                 self.rows.stop = Some(Stop::Output(error));
                 return false;
             }
-            if event.ends() {
-                self.ended = Some(event);
-            }
+            self.effect = self.effect.max(event.effect);
         }
-        self.ended.is_none()
+        self.effect == Effect::None
     }
 }

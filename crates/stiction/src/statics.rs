@@ -8,6 +8,7 @@ use results::DataKind;
 use crate::failure;
 use crate::recorder::{Observe, Recorder, Stop};
 use crate::runner::{Halt, Recorded, Runner};
+use crate::sensors::{Effect, Sensing, Sensors};
 use crate::session::{Outcome, OutputError, Progress, Watch};
 use crate::settings::{self, TimeSpan};
 
@@ -34,6 +35,8 @@ impl Runner<'_> {
         for note in note.into_iter().chain(span.and_then(|span| span.note())) {
             self.log.note(&note)?;
         }
+        let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);
+        let mut effect = Effect::None;
         for (place, time) in times.into_iter().enumerate() {
             let found = self.simulation.find_equilibrium(time, &settings);
             let found = found.map_err(|error| {
@@ -49,16 +52,23 @@ impl Runner<'_> {
                  {:.5e}",
                 found.iterations, found.imbalance
             ))?;
-            self.record_equilibrium(watch)?;
+            effect = self.record_equilibrium(&mut sensors, watch)?;
+            if effect != Effect::None {
+                break;
+            }
         }
         self.simulations += 1;
         self.log.note("End Static Solution\n")?;
-        Ok(())
+        Halt::of_event(effect)
     }
 
-    fn record_equilibrium(&mut self, watch: &mut dyn Watch) -> Result<(), Halt> {
+    fn record_equilibrium(
+        &mut self,
+        sensors: &mut Sensors,
+        watch: &mut dyn Watch,
+    ) -> Result<Effect, Halt> {
         let snapshot = self.simulation.snapshot();
-        let mut observer = Observe {
+        let rows = Observe {
             recorder: &mut self.recorder,
             log: &mut self.log,
             watch,
@@ -70,8 +80,14 @@ impl Runner<'_> {
             stop: None,
             interrupted: false,
         };
+        let mut observer = Sensing {
+            rows,
+            sensors,
+            effect: Effect::None,
+        };
         observer.output(&snapshot);
-        if let Some(stop) = observer.stop {
+        let Sensing { rows, effect, .. } = observer;
+        if let Some(stop) = rows.stop {
             return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
         }
         self.instant = Recorded::Equilibrium;
@@ -81,7 +97,7 @@ impl Runner<'_> {
             statistics: self.simulation.statistics(),
         };
         if watch.progress(&progress) {
-            Ok(())
+            Ok(effect)
         } else {
             Err(Halt::Ended(Outcome::Interrupted))
         }
