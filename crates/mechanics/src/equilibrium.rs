@@ -274,7 +274,9 @@ impl System {
         let applied: Vec<f64> = (0..self.model.forces.len())
             .map(|place| self.force_value(place))
             .collect();
-        let largest = largest_of(multipliers).max(largest_of(&applied)).max(weight);
+        let largest = largest_of(multipliers)
+            .max(largest_of(&applied))
+            .max(weight);
         if largest > 0.0 { largest } else { 1.0 }
     }
 

@@ -4,11 +4,11 @@ use friction::{
     Bristles, Coefficient, Resultant, bristle_resultant, cylindrical_bristle_resultant,
     cylindrical_resultant, resultant,
 };
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::Vector3;
 
 use super::response::{Joining, Response, respond};
 use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
-use crate::equation::{Equation, Local, LocalMatrix, local_velocities};
+use crate::equation::{Equation, Local, local_velocities};
 use crate::model::{Axis, Friction, FrictionJoint, Law};
 use crate::state::MarkerFrame;
 use friction::Regime;
@@ -85,12 +85,23 @@ pub(super) fn one(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
+    derivatives: bool,
 ) -> Element {
     let joining = One {
         friction,
         load: load.load.value,
     };
-    evaluate(friction, memory, past, [equation], load, i, j, &joining)
+    evaluate(
+        friction,
+        memory,
+        past,
+        [equation],
+        load,
+        i,
+        j,
+        &joining,
+        derivatives,
+    )
 }
 
 /// Friction along and about the axis of a cylindrical joint.
@@ -102,12 +113,23 @@ pub(super) fn cylindrical(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
+    derivatives: bool,
 ) -> Element {
     let joining = Both {
         friction,
         load: load.load.value,
     };
-    evaluate(friction, memory, past, equations, load, i, j, &joining)
+    evaluate(
+        friction,
+        memory,
+        past,
+        equations,
+        load,
+        i,
+        j,
+        &joining,
+        derivatives,
+    )
 }
 
 fn evaluate<const N: usize>(
@@ -119,20 +141,17 @@ fn evaluate<const N: usize>(
     i: &MarkerFrame,
     j: &MarkerFrame,
     joining: &impl Joining<N>,
+    derivatives: bool,
 ) -> Element {
     let arms = equations.map(|equation| equation.arm(friction.load.arm()));
     let u = local_velocities(i, j);
     let sticks = memory.stuck && matches!(friction.law, Law::Original(_));
     let (mut velocity, mut creep) = ([0.0; N], [0.0; N]);
     let mut rows = [Local::zeros(); N];
-    let mut velocity_by_position = [Local::zeros(); N];
-    let mut stiffnesses = [LocalMatrix::zeros(); N];
     for k in 0..N {
         let row = equations[k].evaluate(i, j);
-        stiffnesses[k] = equations[k].stiffness(i, j);
         rows[k] = row.jacobian;
         velocity[k] = arms[k] * row.jacobian.dot(&u);
-        velocity_by_position[k] = arms[k] * stiffnesses[k].tr_mul(&u);
         if sticks {
             creep[k] = memory.creep[k] + arms[k] * memory.change(equations[k], k, row.value);
         }
@@ -140,6 +159,14 @@ fn evaluate<const N: usize>(
     let r = respond(
         friction, memory, past, &velocity, &creep, &load.load, arms, joining,
     );
+    let mut element = Element {
+        values: values(friction, equations, &velocity, &creep, &r, load, i, j),
+        steady_coefficient: r.steady_coefficient,
+        load_by_reaction: load.by_reaction,
+        ..Element::AT_REST
+    };
+    element.deflection[..N].copy_from_slice(&r.deflection);
+    element.deflection_rate[..N].copy_from_slice(&r.deflection_rate);
     // The virtual work of component k is force · δ(value): the arms are in the force.
     let Resultant {
         force,
@@ -148,24 +175,18 @@ fn evaluate<const N: usize>(
         by_creep,
         ..
     } = r.resultant;
-    let mut element = Element {
-        values: values(friction, equations, &velocity, &creep, &r, load, i, j),
-        force: Local::zeros(),
-        by_load: Local::zeros(),
-        steady_coefficient: r.steady_coefficient,
-        load_by_reaction: load.by_reaction,
-        by_reaction: SMatrix::zeros(),
-        by_velocity: LocalMatrix::zeros(),
-        by_position: LocalMatrix::zeros(),
-        deflection: [0.0; 3],
-        deflection_rate: [0.0; 3],
-    };
-    element.deflection[..N].copy_from_slice(&r.deflection);
-    element.deflection_rate[..N].copy_from_slice(&r.deflection_rate);
-    let mut along_load = Local::zeros();
     for k in 0..N {
         element.force += force[k] * rows[k];
         element.by_load += r.steady_by_load[k] * rows[k];
+    }
+    if !derivatives {
+        return element;
+    }
+    let stiffnesses = equations.map(|equation| equation.stiffness(i, j));
+    let velocity_by_position: [Local; N] =
+        std::array::from_fn(|k| arms[k] * stiffnesses[k].tr_mul(&u));
+    let mut along_load = Local::zeros();
+    for k in 0..N {
         along_load += by_load[k] * rows[k];
         let mut velocity_change = Local::zeros();
         let mut position_change = by_load[k] * load.by_position;

@@ -126,7 +126,8 @@ fn freedoms(joint: &FrictionJoint) -> &'static [Equation] {
     }
 }
 
-/// Friction and its derivatives, for a reaction along the axes of J.
+/// Friction for a reaction along the axes of J; with `derivatives` also those by velocity, position
+/// and reaction.
 pub(crate) fn evaluate(
     friction: &Friction,
     memory: &Memory,
@@ -135,15 +136,35 @@ pub(crate) fn evaluate(
     j: &MarkerFrame,
     force: [f64; 3],
     moment: [f64; 3],
+    derivatives: bool,
 ) -> Element {
     let load = load_at(friction, memory, i, j, force, moment);
     let equations = freedoms(&friction.load);
     match *equations {
-        [equation] => freedoms::one(friction, memory, bristles, equation, &load, i, j),
+        [equation] => freedoms::one(
+            friction,
+            memory,
+            bristles,
+            equation,
+            &load,
+            i,
+            j,
+            derivatives,
+        ),
         [along, about] => {
-            freedoms::cylindrical(friction, memory, bristles, [along, about], &load, i, j)
+            let equations = [along, about];
+            freedoms::cylindrical(
+                friction,
+                memory,
+                bristles,
+                equations,
+                &load,
+                i,
+                j,
+                derivatives,
+            )
         }
-        _ => spherical::evaluate(friction, memory, bristles, &load, i, j),
+        _ => spherical::evaluate(friction, memory, bristles, &load, i, j, derivatives),
     }
 }
 

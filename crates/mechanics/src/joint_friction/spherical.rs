@@ -3,7 +3,7 @@
 //! The law works in axes fixed to J: its vectors are those of `friction::SphericalLoad`.
 
 use friction::{Bristles, Coefficient, Regime, Resultant, bristle_resultant, resultant};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::response::{Joining, respond};
 use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
@@ -41,6 +41,7 @@ pub(super) fn evaluate(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
+    derivatives: bool,
 ) -> Element {
     let arm = friction.load.arm();
     let omega = i.omega - j.omega;
@@ -96,32 +97,34 @@ pub(super) fn evaluate(
             power: -torque.dot(&velocity) / arm,
             stored: r.stored,
         },
-        force: Local::zeros(),
-        by_load: Local::zeros(),
         steady_coefficient: r.steady_coefficient,
         load_by_reaction: load.by_reaction,
-        by_reaction: SMatrix::zeros(),
-        by_velocity: LocalMatrix::zeros(),
-        by_position: LocalMatrix::zeros(),
         deflection: r.deflection,
         deflection_rate: r.deflection_rate,
+        ..Element::AT_REST
     };
-    let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
     let torque = j.axes * torque;
+    let steady = j.axes * Vector3::from(r.steady_by_load);
+    // Torque on I at 3, the opposite on J at 9.
+    const SIDES: [(usize, f64); 2] = [(3, 1.0), (9, -1.0)];
+    for (place, sign) in SIDES {
+        let put = |local: &mut Local, vector: Vector3<f64>| {
+            local.fixed_rows_mut::<3>(place).copy_from(&vector);
+        };
+        put(&mut element.force, sign * torque);
+        put(&mut element.by_load, sign * steady);
+    }
+    if !derivatives {
+        return element;
+    }
+    let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
     // Derivatives of the torque along ground axes by the relative velocity and rotation.
     let by_omega = j.axes * matrix(r.resultant.by_velocity) * arm * to_j;
     let by_theta_i = j.axes * matrix(r.resultant.by_creep) * turn * to_j;
     // δ(A_J T) = δθ_J × (A_J T) + A_J δT, and δ(A_Jᵀ ω) = −A_Jᵀ (δθ_J × ω).
     let by_theta_j = -skew(&torque) - by_theta_i + by_omega * skew(&omega);
     let along = j.axes * Vector3::from(r.resultant.by_load);
-    let steady = j.axes * Vector3::from(r.steady_by_load);
-    // Torque on I at 3, the opposite on J at 9.
-    for (place, sign) in [(3, 1.0), (9, -1.0)] {
-        let put = |local: &mut Local, vector: Vector3<f64>| {
-            local.fixed_rows_mut::<3>(place).copy_from(&vector);
-        };
-        put(&mut element.force, sign * torque);
-        put(&mut element.by_load, sign * steady);
+    for (place, sign) in SIDES {
         for k in 0..3 {
             let column = sign * load.by_reaction[k] * along;
             let mut view = element.by_reaction.fixed_view_mut::<3, 1>(place, k);

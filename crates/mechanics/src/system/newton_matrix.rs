@@ -177,7 +177,7 @@ impl System {
             if !self.model.is_active(Element::Friction(place)) {
                 continue;
             }
-            let (element, i, j) = self.friction(place, multipliers);
+            let (element, i, j) = self.friction_with_derivatives(place, multipliers);
             let sides = [i.body, j.body];
             let turning = element.by_reaction.fixed_columns::<3>(3)
                 * self.moment_change(place, &i, &j, multipliers);

@@ -129,11 +129,29 @@ impl System {
         !rests && self.model.is_active(ModelElement::Friction(place))
     }
 
-    /// Friction element `place` with derivatives, and the frames of its joint's markers.
+    /// Friction element `place`, and the frames of its joint's markers.
     pub(crate) fn friction(
         &self,
         place: usize,
         multipliers: &[f64],
+    ) -> (Element, MarkerFrame, MarkerFrame) {
+        self.evaluate_friction(place, multipliers, false)
+    }
+
+    /// The same with derivatives by velocity, position and reaction.
+    pub(super) fn friction_with_derivatives(
+        &self,
+        place: usize,
+        multipliers: &[f64],
+    ) -> (Element, MarkerFrame, MarkerFrame) {
+        self.evaluate_friction(place, multipliers, true)
+    }
+
+    fn evaluate_friction(
+        &self,
+        place: usize,
+        multipliers: &[f64],
+        derivatives: bool,
     ) -> (Element, MarkerFrame, MarkerFrame) {
         let friction = &self.model.frictions[place];
         let joint = &self.model.joints[friction.joint];
@@ -145,7 +163,16 @@ impl System {
         let memory = &self.history.frictions[place];
         let bristles = self.bristle_past(place);
         let (force, moment) = (force.into(), moment.into());
-        let element = joint_friction::evaluate(friction, memory, bristles, &i, &j, force, moment);
+        let element = joint_friction::evaluate(
+            friction,
+            memory,
+            bristles,
+            &i,
+            &j,
+            force,
+            moment,
+            derivatives,
+        );
         (element, i, j)
     }
 }
