@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::assembly::Unmet;
 use crate::constraint::Owner;
 use crate::expression::{Input, Program};
-use crate::joint_friction::Values;
+use crate::joint_friction::{Tally, Values};
 use crate::measure::{self, MarkerAcceleration, Order};
 use crate::model::{Element, Model};
 use crate::state::{MarkerFrame, State};
@@ -154,6 +154,20 @@ impl<'a> Snapshot<'a> {
     #[must_use]
     pub fn friction(&self, friction: usize) -> Values {
         self.system.friction(friction, self.multipliers).0.values
+    }
+
+    /// What a friction did up to the end of an accepted step, the last one or, within a step, one of
+    /// the two that enclose the instant.
+    #[must_use]
+    pub fn tally(&self, friction: usize) -> &Tally {
+        &self.system.history.frictions[friction].tally
+    }
+
+    /// Work of dynamic simulations since the start: what each friction took out, then what forces
+    /// and what motions put in; force · length.
+    #[must_use]
+    pub fn works(&self) -> &[f64] {
+        self.state.works()
     }
 
     /// Value of a measure, of accelerations too.
