@@ -55,7 +55,6 @@ pub(crate) struct Answer {
     pub(crate) by_velocity: [[f64; 3]; 3],
     /// By the joint's load.
     pub(crate) by_load: [f64; 3],
-    pub(crate) clipped: bool,
     /// State after the step.
     pub(crate) state: [f64; 3],
     /// The joint's load.
@@ -77,7 +76,6 @@ impl Answer {
             force: [0.0; 3],
             by_velocity: [[0.0; 3]; 3],
             by_load: [0.0; 3],
-            clipped: r.clipped,
             state: [0.0; 3],
             load,
             surface_load: load,
