@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::keywords::{Keyword, Kind, keyword};
 use crate::model::{
     Activity, Change, ChangeKind, CommandKind, Dataset, Equilibrium, Friction, FrictionArguments,
-    Integrator,
+    Integrator, Switchable,
 };
 use crate::reading::Reading;
 use crate::source::{Source, Span};
@@ -328,6 +328,19 @@ impl Dataset {
             }
         }
         Some(())
+    }
+}
+
+impl ChangeKind {
+    /// Whether it changes the model, rather than how it is solved or what is printed.
+    #[must_use]
+    pub fn is_of_model(&self) -> bool {
+        match self {
+            Self::Integrator(_) | Self::Equilibrium(_) => false,
+            Self::Friction { arguments, .. } => **arguments != FrictionArguments::default(),
+            Self::Activity(activity) => activity.kind != Switchable::Sensor,
+            _ => true,
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! LIST of a FRICTION command: the values of all arguments for the message file.
 
-use dataset::{Dataset, FrictionInputs, FrictionQuantity, Switchable};
+use dataset::{Dataset, Formulation, FrictionInputs, FrictionQuantity, Switchable};
 
 use crate::channels::{name, unit_names};
 use crate::defaults::with_unit;
@@ -23,6 +23,15 @@ pub(crate) fn friction(dataset: &Dataset, id: u32) -> Option<String> {
         friction.joint,
         name(&joint.header, "JOINT"),
     );
+    let no_overlap = if joint.kind.translates() {
+        String::new()
+    } else {
+        format!("not used by a {} joint", joint.kind.keyword())
+    };
+    let no_effect = match friction.formulation {
+        Formulation::Original => "",
+        Formulation::LuGre => "not used by FORMULATION = LUGRE",
+    };
     let mut line = |keyword: &str, value: &str, remark: &str| {
         let row = format!("  {keyword:<32}{value:<24}{remark}");
         text += row.trim_end();
@@ -34,9 +43,13 @@ pub(crate) fn friction(dataset: &Dataset, id: u32) -> Option<String> {
     line("FORMULATION", friction.formulation.keyword(), "");
     line("MU_STATIC", &friction.mu_static.to_string(), "");
     line("MU_DYNAMIC", &friction.mu_dynamic.to_string(), "");
-    line("EFFECT", friction.effect.keyword(), "");
+    line("EFFECT", friction.effect.keyword(), no_effect);
     line("INPUTS", &inputs(friction.inputs), "");
-    line("OVERLAP_DELTA", friction.overlap_delta.keyword(), "");
+    line(
+        "OVERLAP_DELTA",
+        friction.overlap_delta.keyword(),
+        &no_overlap,
+    );
     let during = if friction.inactive_static {
         "STATIC"
     } else {

@@ -205,7 +205,13 @@ impl<'a> Runner<'a> {
         let project = self.session.project;
         // The survey has found nothing wrong with it, and its warnings have been told.
         let _ = project.change(&mut self.dataset, change, step.source);
-        self.changed = true;
+        if change.kind.is_of_model() {
+            self.changed = true;
+            if self.instant == Recorded::Equilibrium {
+                // Another model has another equilibrium.
+                self.instant = Recorded::Nothing;
+            }
+        }
         let ChangeKind::Friction { id, list: true, .. } = change.kind else {
             return Ok(());
         };

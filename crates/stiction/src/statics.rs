@@ -32,6 +32,10 @@ impl Runner<'_> {
             }
         };
         self.log.note("\nBegin Static Solution")?;
+        self.log.note(&format!(
+            "error {:e}, imbalance {:e}, stability {:e}, at most {} iterations",
+            settings.error, settings.imbalance, settings.stability, settings.iterations
+        ))?;
         for note in note.into_iter().chain(span.and_then(|span| span.note())) {
             self.log.note(&note)?;
         }

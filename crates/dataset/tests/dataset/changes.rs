@@ -200,6 +200,7 @@ fn list_is_read_alone_and_with_other_arguments() {
         };
         assert_eq!(arguments.mu_static.map(|(value, _)| value), mu_static);
         assert!(model().apply(change).is_empty());
+        assert_eq!(change.kind.is_of_model(), mu_static.is_some());
     }
 }
 

@@ -83,6 +83,37 @@ SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
 }
 
 #[test]
+fn a_joint_can_rest_from_the_start() {
+    let run = run_commands(
+        BLOCK,
+        "DEACTIVATE/JOINT, ID=1\nSIMULATE/DYNAMIC, END=0.5, STEPS=5",
+    );
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    assert!(run.messages.contains("6 degrees of freedom"));
+    assert!((acceleration(&run, 1, "Y") + 10.0).abs() < 1e-9);
+}
+
+#[test]
+fn an_overlap_that_is_used_up_is_told_once() {
+    let dataset = BLOCK.replace(
+        "INITIAL_OVERLAP=10",
+        "INITIAL_OVERLAP=0.1, OVERLAP_DELTA=DECREASE",
+    );
+    let run = run_commands(&dataset, "SIMULATE/DYNAMIC, END=1, STEPS=100");
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    let told: Vec<&str> = run.messages.matches("is used up at time").collect();
+    assert_eq!(told.len(), 1, "{}", run.messages);
+    assert!(
+        run.messages
+            .contains("FRICTION/7: the overlap of its joint")
+    );
+    // z passes 0.1 at about sqrt(2 * 0.1 / 3) = 0.26, a little later as it starts in stiction.
+    let (_, time) = run.messages.split_once("is used up at time ").unwrap();
+    let time: f64 = time.split(';').next().unwrap().parse().unwrap();
+    assert!((0.25..0.32).contains(&time), "{time}");
+}
+
+#[test]
 fn motions_and_constraints_are_let_go() {
     let dataset = "A block that is driven
 PART/1, GROUND

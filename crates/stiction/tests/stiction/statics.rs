@@ -178,6 +178,35 @@ fn a_sweep_is_one_equilibrium_after_another() {
 }
 
 #[test]
+fn a_sweep_starts_anew_from_a_changed_model() {
+    let run = run(
+        SPRING,
+        "SIMULATE/STATIC\nEQUILIBRIUM/MAXIT=30\nSIMULATE/STATIC, END=1, STEPS=1\n\
+         SFORCE/1, FUNCTION=20*TIME-40*DZ(20)\nSIMULATE/STATIC, END=2, STEPS=1",
+    );
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    let column = run.results.column("PART_2_XFORM.Z").unwrap();
+    let rows = |name: &str| -> Vec<(f64, f64)> {
+        let block = run.results.block(name).unwrap();
+        let times = block.times.iter().copied();
+        times.zip(block.column(column)).collect()
+    };
+    for (name, expected) in [
+        ("static_001", vec![(0.0, 0.0)]),
+        ("quasiStatic_001", vec![(1.0, 0.25)]),
+        ("quasiStatic_002", vec![(1.0, 0.5), (2.0, 1.0)]),
+    ] {
+        let found = rows(name);
+        assert_eq!(found.len(), expected.len(), "{name}");
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found.0, expected.0, "{name}");
+            // An imbalance of 1e-4 on 40 per length.
+            assert!((found.1 - expected.1).abs() < 2.5e-6, "{name}");
+        }
+    }
+}
+
+#[test]
 fn mode_tells_the_analysis() {
     let run = run(
         SPRING,
