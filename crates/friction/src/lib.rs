@@ -40,6 +40,11 @@ extern crate std;
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("enable one of the features `std` (default) and `libm` for the square root");
 
+/// Runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod explicit;
 pub mod joint;
 pub mod lugre;
