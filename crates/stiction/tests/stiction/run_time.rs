@@ -83,6 +83,41 @@ SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
 }
 
 #[test]
+fn arguments_of_a_friction_act_from_their_command_on() {
+    let commands = "
+SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
+FRICTION/7, MU_DYNAMIC=0.1
+SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
+FRICTION/7, MAX_FRICTION_FORCE=1
+SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
+FRICTION/7, FRICTION_FORCE_PRELOAD=3
+SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
+FRICTION/7, INPUTS=NONE
+SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
+";
+    let lugre = BLOCK.replace(
+        "INITIAL_OVERLAP=10",
+        "FORMULATION=LUGRE, DAMPING_COEFFICIENT=1, INITIAL_OVERLAP=10",
+    );
+    for (dataset, tolerance) in [
+        (BLOCK, 1e-9),
+        // The bristles settle over a length of Fd/s0 = 4e-4 m, far less than the block slides; a
+        // billionth of a friction remains where there is no load.
+        (lugre.as_str(), 1e-8),
+    ] {
+        let run = run_commands(dataset, commands);
+        assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+        // 10 N less the friction on 2 kg: 0.2 and 0.1 of 20 N, the limit of 1 N, this and the
+        // preload of 3 N, and nothing.
+        for (place, friction) in [4.0, 2.0, 1.0, 4.0, 0.0].into_iter().enumerate() {
+            let found = acceleration(&run, place + 1, "Z");
+            println!("friction {friction} N: acceleration {found}");
+            assert!((found - 0.5 * (10.0 - friction)).abs() < tolerance);
+        }
+    }
+}
+
+#[test]
 fn a_joint_can_rest_from_the_start() {
     let run = run_commands(
         BLOCK,
