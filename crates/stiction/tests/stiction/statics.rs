@@ -177,6 +177,84 @@ fn a_sweep_is_one_equilibrium_after_another() {
     assert_eq!(run.report.outputs, 7);
 }
 
+/// The creep that holds a part of the limit: psi(s) = (15 s - 10 s^3 + 3 s^5)/8, spec 1.1.
+fn creep(part: f64, largest: f64) -> f64 {
+    let psi = |s: f64| s * (15.0 - 10.0 * s * s + 3.0 * s.powi(4)) / 8.0;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if psi(middle) < part {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low * largest
+}
+
+#[test]
+fn a_sweep_follows_the_creep_until_friction_holds_no_more() {
+    // The limit is 0.3 * 9.81 N; 4.4 N more a unit of time reach it at 0.669.
+    let dataset = incline(0.0, "").replace(
+        "END\n",
+        "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=4.4*TIME\nEND\n",
+    );
+    let run = run(&dataset, "SIMULATE/QUASISTATIC, END=1, STEPS=10");
+    let Outcome::IntegrationFailed(text) = &run.report.outcome else {
+        panic!("{:?}", run.report.outcome)
+    };
+    assert!(
+        text.contains("at time 0.7") && text.contains("FRICTION/1 is saturated"),
+        "{text}"
+    );
+    // What was found before is kept.
+    let column = run.results.column("PART_2_XFORM.Z").unwrap();
+    let block = run.results.block("quasiStatic_001").unwrap();
+    assert_eq!(block.times.len(), 7);
+    for (time, found) in block.times.iter().zip(block.column(column)) {
+        let expected = creep(4.4 * time / (0.3 * 9.81), 0.01);
+        // Newton's method ends at rounding; the slope of the law falls to a third.
+        assert!(
+            (found - expected).abs() < 1e-9,
+            "{time}: {found} {expected}"
+        );
+    }
+}
+
+#[test]
+fn creep_goes_back_with_the_load() {
+    let dataset = incline(0.0, "").replace(
+        "END\n",
+        "SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=2.8*SIN(TIME)\nEND\n",
+    );
+    let commands = "SIMULATE/STATIC, END=6.283185307179586, STEPS=24";
+    let run = run(&dataset, commands);
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    let column = run.results.column("PART_2_XFORM.Z").unwrap();
+    let block = run.results.block("quasiStatic_001").unwrap();
+    for (time, found) in block.times.iter().zip(block.column(column)) {
+        let part = 2.8 * time.sin() / (0.3 * 9.81);
+        let expected = creep(part.abs(), 0.01) * part.signum();
+        // Newton's method ends at rounding; the slope of the law falls to a fifth.
+        assert!(
+            (found - expected).abs() < 1e-9,
+            "{time}: {found} {expected}"
+        );
+    }
+}
+
+#[test]
+fn sensors_end_sweeps() {
+    let dataset = SPRING.replace(
+        "END\n",
+        "SENSOR/1, GE, VALUE=0.1, ERROR=1E-6, RETURN, FUNCTION=DZ(20)\nEND\n",
+    );
+    let run = run(&dataset, "SIMULATE/STATIC, END=1, STEPS=10");
+    assert_eq!(run.report.outcome, Outcome::Completed);
+    // 0.25 a unit of time.
+    assert_eq!((run.report.time, run.report.outputs), (0.4, 5));
+}
+
 #[test]
 fn a_sweep_starts_anew_from_a_changed_model() {
     let run = run(
