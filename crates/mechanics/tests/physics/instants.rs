@@ -60,7 +60,7 @@ fn rod_on_a_pin_with_friction_meets_the_reference() {
             gravity: 9.80665,
             angle: given("theta"),
             rate,
-            law: law(0.4, 0.3, 1e-9, 1e-9),
+            law: law(0.4, 0.3, 1e-9, 1e-9).into(),
         };
         let simulation = assembled(pendulum.model());
         let (radial, tangential) = radial_and_tangential(&simulation, pendulum.angle);
@@ -91,7 +91,7 @@ fn point_mass_on_a_pin_meets_the_closed_form() {
             gravity: g,
             angle,
             rate,
-            law: law(mu, mu, 1e-4, 1e-6),
+            law: law(mu, mu, 1e-4, 1e-6).into(),
         };
         let simulation = assembled(pendulum.model());
         let a: f64 = mu * radius;

@@ -1,5 +1,7 @@
 //! Numbers of the reference data.
 
+use std::path::PathBuf;
+
 use serde_json::Value;
 
 /// A JSON file of the reference data, or `None` with a printed reason.
@@ -29,4 +31,15 @@ pub(crate) fn numbers(value: &Value, pointer: &str) -> Vec<f64> {
     list.iter()
         .map(|entry| entry.as_f64().expect("a number"))
         .collect()
+}
+
+/// Rows of numbers of a comma-separated file, without its heading.
+pub(crate) fn table(path: PathBuf) -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string(path).expect("reference files are text");
+    let row = |line: &str| {
+        line.split(',')
+            .map(|x| x.parse().expect("a number"))
+            .collect()
+    };
+    text.lines().skip(1).map(row).collect()
 }

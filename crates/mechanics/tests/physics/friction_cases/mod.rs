@@ -8,10 +8,13 @@
 //! turning points. Cases whose solution with the law itself is known are compared at one Vs and Dm.
 
 mod balls;
+mod crosses;
 mod law;
 mod linkages;
+mod lugre;
 mod pins;
 mod rotors;
+mod sleeves;
 mod slopes;
 mod spatial;
 mod springs;
@@ -31,20 +34,40 @@ const UNLOADED: &str = "without load only the work below Vs, O(Vs²), is missing
 
 /// What every case of the original law with stick and slip shows, beside `more`.
 fn original<'a>(joint: JointType, more: &'a [&'a str]) -> [Coverage<'a>; 2] {
-    let of = |arguments| Coverage {
+    let basic = &[
+        "JOINT",
+        "FORMULATION",
+        "MU_STATIC",
+        "MU_DYNAMIC",
+        "STICTION_TRANSITION_VELOCITY",
+        "MAX_STICTION_DEFORMATION",
+    ];
+    coverage(joint, Formulation::Original, basic, more)
+}
+
+/// What every case of bristles that slip shows, beside `more`.
+fn lugre<'a>(joint: JointType, more: &'a [&'a str]) -> [Coverage<'a>; 2] {
+    let basic = &[
+        "JOINT",
+        "FORMULATION",
+        "MU_STATIC",
+        "MU_DYNAMIC",
+        "BRISTLE_STIFFNESS_COEFFICIENT",
+        "DAMPING_COEFFICIENT",
+        "VELOCITY_THRESHOLD_STRIBECK",
+    ];
+    coverage(joint, Formulation::LuGre, basic, more)
+}
+
+fn coverage<'a>(
+    joint: JointType,
+    formulation: Formulation,
+    basic: &'a [&'a str],
+    more: &'a [&'a str],
+) -> [Coverage<'a>; 2] {
+    [basic, more].map(|arguments| Coverage {
         joint,
-        formulation: Formulation::Original,
+        formulation,
         arguments,
-    };
-    [
-        of(&[
-            "JOINT",
-            "FORMULATION",
-            "MU_STATIC",
-            "MU_DYNAMIC",
-            "STICTION_TRANSITION_VELOCITY",
-            "MAX_STICTION_DEFORMATION",
-        ]),
-        of(more),
-    ]
+    })
 }

@@ -71,7 +71,7 @@ fn pendulums_on_pins() {
                 gravity: 9.80665,
                 angle: number(exact, "/params/theta0_rad"),
                 rate: 0.0,
-                law: law(0.4, 0.3, transition_velocity, 1e-2 * transition_velocity),
+                law: law(0.4, 0.3, transition_velocity, 1e-2 * transition_velocity).into(),
             };
             swings(&pendulum, end)
         };
@@ -112,7 +112,7 @@ fn pendulum_and_its_closed_form() {
             gravity: 9.81,
             angle: std::f64::consts::FRAC_PI_3,
             rate: 0.0,
-            law: law(0.3, 0.3, 1.6e-2 * h, 1.6e-4 * h),
+            law: law(0.3, 0.3, 1.6e-2 * h, 1.6e-4 * h).into(),
         };
         let (turns, _) = swings(&pendulum, 4.5);
         let errors = turns

@@ -2,7 +2,7 @@
 
 use friction::parameters::JointType;
 use mechanics::Formulation;
-use mechanics::model::{FrictionJoint, JointKind, Level, Model, MotionFreedom};
+use mechanics::model::{FrictionJoint, JointKind, Law, Level, Model, MotionFreedom};
 use nalgebra::{Matrix3, Vector3};
 use verification::{Case, Rule, Section, check};
 
@@ -86,7 +86,7 @@ pub(crate) struct Belt {
 }
 
 impl Belt {
-    pub(crate) fn model(&self, law: friction::Original) -> Model {
+    pub(crate) fn model(&self, law: impl Into<Law>) -> Model {
         let mut b = Builder::new(v(0.0, -self.gravity, 0.0));
         let block = b.body(self.mass, [0.02; 3], Vector3::zeros());
         let belt = b.body(1.0, [0.02; 3], Vector3::zeros());

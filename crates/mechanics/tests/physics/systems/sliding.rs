@@ -1,8 +1,8 @@
 //! A block on a guide down a slope, with friction in the translational joint.
 
-use friction::{Inputs, Original, TranslationalLoad};
+use friction::{Inputs, TranslationalLoad};
 use mechanics::Snapshot;
-use mechanics::model::{ForceAndTorque, FrictionJoint, JointKind, Model};
+use mechanics::model::{ForceAndTorque, FrictionJoint, JointKind, Law, Model};
 use nalgebra::Vector3;
 
 use crate::builder::{Builder, v};
@@ -16,7 +16,7 @@ pub(crate) struct Block {
     pub(crate) slope: f64,
     /// Velocity at the start.
     pub(crate) velocity: f64,
-    pub(crate) law: Original,
+    pub(crate) law: Law,
     pub(crate) load: TranslationalLoad,
     pub(crate) preload: f64,
     pub(crate) maximum: f64,
@@ -27,13 +27,13 @@ pub(crate) struct Block {
 
 impl Block {
     /// 2 kg on 30°, g = 9.80665 m/s², at rest.
-    pub(crate) fn new(law: Original) -> Self {
+    pub(crate) fn new(law: impl Into<Law>) -> Self {
         Self {
             mass: 2.0,
             gravity: 9.80665,
             slope: 30.0,
             velocity: 0.0,
-            law,
+            law: law.into(),
             load: TranslationalLoad {
                 inputs: Inputs::ALL,
                 reaction_arm: 1.0,

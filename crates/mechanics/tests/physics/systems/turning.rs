@@ -1,7 +1,7 @@
 //! Bodies that turn in a revolute or spherical joint with friction.
 
 use friction::{Inputs, Original, RevoluteLoad, SphericalLoad};
-use mechanics::model::{FrictionJoint, JointKind, Model};
+use mechanics::model::{FrictionJoint, JointKind, Law, Model};
 use mechanics::rotation::Quaternion;
 use nalgebra::{Matrix3, Vector3};
 
@@ -45,7 +45,7 @@ pub(crate) struct Pendulum {
     pub(crate) gravity: f64,
     pub(crate) angle: f64,
     pub(crate) rate: f64,
-    pub(crate) law: Original,
+    pub(crate) law: Law,
 }
 
 impl Pendulum {
