@@ -60,6 +60,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("FRICTION", dataset.frictions.len()),
         ("VARIABLE", dataset.variables.len()),
         ("REQUEST", dataset.requests.len()),
+        ("SENSOR", dataset.sensors.len()),
     ];
     let mut report = CheckReport {
         title: dataset.title.clone(),

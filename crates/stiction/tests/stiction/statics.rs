@@ -244,6 +244,38 @@ fn creep_goes_back_with_the_load() {
 }
 
 #[test]
+fn an_equilibrium_between_motions_takes_their_speed() {
+    let dataset = SPRING.replace("10*TIME", "10").replace("-VZ(20)", "");
+    let commands = "SIMULATE/DYNAMIC, END=0.3, STEPS=3\nSIMULATE/STATIC\n\
+                    SIMULATE/DYNAMIC, DURATION=1, STEPS=5";
+    let run = run(&dataset, commands);
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    let names: Vec<&str> = run.results.data.iter().map(|b| b.name.as_str()).collect();
+    let expected = [
+        "modelInput_001",
+        "initialConditions_001",
+        "dynamic_001",
+        "static_001",
+        "initialConditions_002",
+        "dynamic_002",
+    ];
+    assert_eq!(names, expected);
+    let values = |block: &str, name: &str| -> Vec<f64> {
+        let column = run.results.column(name).unwrap();
+        run.results.block(block).unwrap().column(column).collect()
+    };
+    assert!(values("dynamic_001", "PART_2_XFORM.VZ")[2] > 0.5);
+    assert_eq!(value(&run.results, "static_001", "PART_2_XFORM.VZ"), 0.0);
+    // Without damping only an exact equilibrium keeps the block where it is.
+    for position in values("dynamic_002", "PART_2_XFORM.Z") {
+        assert!((position - 0.25).abs() < 1e-12, "{position}");
+    }
+    // Four times of the first motion, one of the equilibrium, five of the second motion, each with
+    // the line of REQUEST/1.
+    assert_eq!(run.requests.lines().skip(4).count(), 2 * 10);
+}
+
+#[test]
 fn sensors_end_sweeps() {
     let dataset = SPRING.replace(
         "END\n",
