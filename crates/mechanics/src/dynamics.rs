@@ -20,7 +20,9 @@
 //!
 //! Bristle deflections of LuGre follow from velocities and reactions in closed form (see
 //! `joint_friction`); the works of frictions, forces and motions are integrated by the same formula.
-//! Neither is an unknown of Newton's iteration, and works take no part in the error test.
+//! Neither is an unknown of Newton's iteration, nor part of the error test. Sliding bristles follow the
+//! reactions, which a step determines to the Newton tolerance divided by its length only: an error
+//! test on them answers with shorter steps, and those with rougher reactions (docs/decisions/0006).
 //!
 //! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
@@ -129,8 +131,6 @@ pub(crate) struct Dynamics {
     pub(crate) multipliers: Vec<f64>,
     /// Friction memory before the last accepted step, for outputs within it.
     pub(crate) previous: Vec<Memory>,
-    /// Lengths that differences of bristle deflections count against.
-    bristle_scales: Vec<f64>,
     powers: Vec<f64>,
     state: State,
     shift: Vec<f64>,
@@ -165,7 +165,6 @@ impl Dynamics {
             work: Work::default(),
             multipliers: vec![0.0; system.row_count()],
             previous: system.history.frictions.clone(),
-            bristle_scales: vec![0.0; system.bristle_count()],
             powers: vec![0.0; system.work_count()],
             state,
             shift: vec![0.0; n],
@@ -192,7 +191,6 @@ impl Dynamics {
         self.present = formulation;
         self.index3_left = 0;
         self.scales = scales;
-        self.system.write_bristle_scales(&mut self.bristle_scales);
         self.factored = None;
         self.rate = 0.0;
     }
@@ -528,15 +526,6 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        let bristles = &difference[self.state.bristle_range()];
-        for (d, scale) in bristles.iter().zip(&self.bristle_scales) {
-            if *scale > 0.0 {
-                norm = norm.max(d.abs() / scale);
-            }
-            if d.is_nan() {
-                return f64::NAN;
-            }
-        }
         if self.present == Formulation::Si2 {
             let velocities = POSITIONS * bodies..self.state.motions();
             for (k, d) in difference[velocities].iter().enumerate() {
@@ -555,7 +544,6 @@ impl bdf::System for Dynamics {
         // The step solved last is the one accepted: everything is evaluated there.
         self.previous.clone_from(&self.system.history.frictions);
         self.system.accept_frictions(&self.multipliers, step.size);
-        self.system.write_bristle_scales(&mut self.bristle_scales);
         self.system.remember_angles();
         self.scales.observe(self.state.velocities());
     }

@@ -348,17 +348,6 @@ impl Friction {
             load.value / self.load.arm()
         }
     }
-
-    /// The larger of its preloads as a force at the sliding surfaces.
-    #[must_use]
-    pub fn surface_preload(&self) -> f64 {
-        let turning = self.preload.torque / self.load.arm();
-        match self.load {
-            FrictionJoint::Translational(_) => self.preload.force,
-            FrictionJoint::Cylindrical(_) => self.preload.force.max(turning),
-            _ => turning,
-        }
-    }
 }
 
 /// An element by its place in the lists of a [`Model`].

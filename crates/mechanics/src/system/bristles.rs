@@ -59,21 +59,6 @@ impl System {
         }
     }
 
-    /// Length that a difference of each deflection counts against: what the largest load so far
-    /// bends the bristles by.
-    pub(crate) fn write_bristle_scales(&self, scales: &mut [f64]) {
-        let mut first = 0;
-        for (place, friction) in self.model.frictions.iter().enumerate() {
-            let count = self.bristles_of(place);
-            if let Law::LuGre(law) = &friction.law {
-                let memory = &self.history.frictions[place];
-                let level = law.mu_static * memory.largest_load + friction.surface_preload();
-                scales[first..first + count].fill(level / law.bristle_stiffness);
-            }
-            first += count;
-        }
-    }
-
     /// Takes over the present instant as the end of an accepted step of length `size`.
     pub(crate) fn accept_frictions(&mut self, multipliers: &[f64], size: f64) {
         for place in 0..self.model.frictions.len() {
@@ -92,7 +77,7 @@ impl System {
         }
     }
 
-    /// Forgets nothing but the past of the formula: a friction at a new place in time.
+    /// Raises the largest loads so far to those of the instant evaluated last.
     pub(crate) fn observe_loads(&mut self, multipliers: &[f64]) {
         for place in 0..self.model.frictions.len() {
             let load = self.friction(place, multipliers).0.values.load;
