@@ -6,7 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use stiction::{Outcome, Project, RunReport};
+use stiction::{EnergyBalance, EnergyTerm, FrictionReport, Outcome, Project, RunReport};
 
 use crate::arguments::RunArguments;
 use crate::exit::Exit;
@@ -71,6 +71,7 @@ pub(crate) fn write(
     let (outcome, message) = words(&report.outcome);
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let steps = &report.statistics.steps;
+    let balance = report.balance.as_ref().map(balance_json);
     let value = json!({
         "program": "stiction",
         "version": env!("CARGO_PKG_VERSION"),
@@ -101,6 +102,43 @@ pub(crate) fn write(
             "residuals": report.statistics.work.residuals,
             "factorisations": report.statistics.work.factorisations,
         },
+        "energy_balance": balance,
+        "frictions": report.frictions.iter().map(friction_json).collect::<Vec<_>>(),
     });
     std::fs::write(folder.join("run.json"), format!("{value:#}\n"))
+}
+
+fn balance_json(balance: &EnergyBalance) -> Value {
+    let term =
+        |term: &EnergyTerm| json!({ "start": term.start, "end": term.end, "change": term.change });
+    json!({
+        "unit": balance.unit,
+        "kinetic": term(&balance.kinetic),
+        "weight": term(&balance.weight),
+        "stored": term(&balance.stored),
+        "dissipated": balance.dissipated,
+        "work_of_forces": balance.forces,
+        "work_of_motions": balance.motions,
+        "residual": balance.residual(),
+        "residual_share": balance.residual_share(),
+        "exchanged": balance.exchanged,
+    })
+}
+
+fn friction_json(report: &FrictionReport) -> Value {
+    let tally = &report.tally;
+    json!({
+        "friction": report.friction,
+        "joint": report.joint,
+        "peak": { "value": report.peak, "unit": report.unit, "time": report.peak_time },
+        "outputs": { "stuck": report.regimes[0], "transition": report.regimes[1],
+            "sliding": report.regimes[2], "limited": report.clipped },
+        "work": { "value": report.work, "unit": report.energy_unit },
+        "dissipated": { "value": report.energy, "unit": report.energy_unit },
+        "sticks": tally.sticks,
+        "stuck_time": { "value": tally.stuck_time, "unit": report.time_unit },
+        "largest_creep": { "value": tally.largest_creep, "unit": report.length_unit },
+        "drift": report.lugre.then_some(tally.drift),
+        "not_passive_from": tally.not_passive,
+    })
 }

@@ -7,6 +7,8 @@
 //! | part | pose of the part's frame in ground (`PSI THETA PHI` body-fixed 3-1-3 angles), velocity and acceleration of its origin and angular ones, global components |
 //! | joint, primitive, motion, force | force and torque on the part of the I marker, at the I marker, global components; friction excluded |
 //! | friction | force and torque on the part of the I marker, J axes; coefficient, surface velocity and creep, I axes |
+//!
+//! Beside those, `friction_detail.rs` has an entity of our own for each friction.
 
 use crate::units::UnitNames;
 
@@ -48,7 +50,7 @@ pub struct Entity {
 }
 
 impl Entity {
-    fn of(kind: &str, name: &str, id: u32, components: Vec<Component>) -> Self {
+    pub(crate) fn of(kind: &str, name: &str, id: u32, components: Vec<Component>) -> Self {
         Self {
             name: name.into(),
             element: Some(name.into()),
@@ -137,7 +139,7 @@ impl Entity {
     }
 }
 
-fn triples<const N: usize>(groups: [([&str; 3], String); N]) -> Vec<Component> {
+pub(crate) fn triples<const N: usize>(groups: [([&str; 3], String); N]) -> Vec<Component> {
     groups
         .into_iter()
         .flat_map(|(names, unit)| names.map(|name| Component::new(name, unit.clone())))

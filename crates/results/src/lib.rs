@@ -36,6 +36,7 @@
 //! ```
 
 pub mod channels;
+pub mod friction_detail;
 pub mod layout;
 pub mod msg;
 mod number;
@@ -45,6 +46,7 @@ pub mod res_writer;
 pub mod units;
 
 pub use channels::{Component, Entity};
+pub use friction_detail::{FRICTION_DETAIL, SurfaceMotion};
 pub use layout::{Layout, LayoutError};
 pub use msg::{MessageWriter, StepRow};
 pub use req::{ReqWriter, Request};

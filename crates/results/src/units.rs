@@ -144,6 +144,16 @@ impl UnitNames {
         format!("{}-{}", self.force, self.length)
     }
 
+    /// Work and energy, spelled as a torque: `newton-meter`.
+    pub fn energy(&self) -> String {
+        self.torque()
+    }
+
+    /// Power: `newton-meter/sec`.
+    pub fn power(&self) -> String {
+        format!("{}/{}", self.energy(), self.time)
+    }
+
     /// Velocity: `meter/sec`.
     pub fn velocity(&self) -> String {
         format!("{}/{}", self.length, self.time)

@@ -1,14 +1,16 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
 //! Order: parts and point masses, joints, primitives, motions, general constraints, forces,
-//! spring-dampers, variables, plant inputs and outputs, frictions, requests.
+//! spring-dampers, variables, plant inputs and outputs, frictions, requests; last our own entities,
+//! one a friction, where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
+use mechanics::Owner;
 use mechanics::expression::{Input, Register};
 use mechanics::rotation::to_euler_313;
-use mechanics::{Owner, Snapshot};
 use results::{Component, Entity, Layout, LayoutError, Request, UnitNames};
 
+use crate::friction_detail;
 use crate::lower::{Column, ForceElement, Lowered, Outputs, Unit, view_name};
 use crate::wrenches::Wrenches;
 
@@ -109,6 +111,15 @@ impl Channels {
             layout.push(Entity::friction(&name, friction.header.id, units));
         }
         let requests = requests(dataset, &lowered.outputs, units, &mut layout);
+        for (friction, model) in dataset.frictions.iter().zip(&lowered.model.frictions) {
+            let name = name(&friction.header, "FRICTION");
+            layout.push(friction_detail::entity(
+                &name,
+                friction.header.id,
+                model,
+                units,
+            ));
+        }
         Ok(Self {
             layout,
             requests,
@@ -127,8 +138,16 @@ impl Channels {
         &self.requests
     }
 
-    /// Fills `row` with the values of a solved instant.
-    pub(crate) fn fill(&self, outputs: &Outputs, snapshot: &Snapshot<'_>, row: &mut Row) {
+    /// Fills `row` with the values of a solved instant, at which each friction has dissipated so
+    /// much.
+    pub(crate) fn fill(
+        &self,
+        outputs: &Outputs,
+        wrenches: &Wrenches<'_>,
+        dissipated: &[f64],
+        row: &mut Row,
+    ) {
+        let snapshot = wrenches.snapshot();
         let values = &mut row.values;
         values.clear();
         let bodies = 0..snapshot.model().bodies.len();
@@ -147,13 +166,12 @@ impl Channels {
             values.extend_from_slice(acceleration.linear.as_slice());
             values.extend_from_slice(acceleration.angular.as_slice());
         }
-        let wrenches = Wrenches::new(snapshot);
         for element in &self.elements {
             let wrench = wrenches.on_i(*element);
             values.extend_from_slice(wrench.force.as_slice());
             values.extend_from_slice(wrench.torque.as_slice());
         }
-        let registers = evaluate(outputs, snapshot, &wrenches);
+        let registers = evaluate(outputs, wrenches);
         let at = |register: Register| registers[register as usize];
         values.extend(outputs.variables.iter().map(|value| at(*value)));
         values.extend(
@@ -174,11 +192,15 @@ impl Channels {
             row.requests
                 .push(six.map(|k| columns[k].as_ref().map_or(0.0, value)));
         }
+        for (friction, &dissipated) in dissipated.iter().enumerate() {
+            friction_detail::append(values, wrenches, friction, dissipated);
+        }
     }
 }
 
 /// Registers of the program of the outputs.
-fn evaluate(outputs: &Outputs, snapshot: &Snapshot<'_>, wrenches: &Wrenches) -> Vec<f64> {
+fn evaluate(outputs: &Outputs, wrenches: &Wrenches<'_>) -> Vec<f64> {
+    let snapshot = wrenches.snapshot();
     let program = &outputs.program;
     let mut registers = vec![0.0; program.len()];
     if !program.is_empty() {

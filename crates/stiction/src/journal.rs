@@ -8,9 +8,12 @@ use mechanics::model::{Label, Model};
 use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
 use results::{MessageWriter, StepRow};
 
+use crate::balance::{EnergyBalance, SUSPICIOUS};
 use crate::defaults::defaults_in_use;
 use crate::message::Message;
+use crate::report::{FrictionReport, friction_table};
 use crate::session::OutputError;
+use crate::wrenches::Wrenches;
 
 /// Writer of the message file of a run.
 pub(crate) struct Journal<W: Write> {
@@ -200,9 +203,10 @@ impl<W: Write> Journal<W> {
     }
 
     /// Warns once for each sliding joint that has left its guide.
-    pub(crate) fn watch_overlap(&mut self, snapshot: &Snapshot<'_>) -> Result<(), OutputError> {
+    pub(crate) fn watch_overlap(&mut self, wrenches: &Wrenches<'_>) -> Result<(), OutputError> {
+        let snapshot = wrenches.snapshot();
         for (place, friction) in snapshot.model().frictions.iter().enumerate() {
-            let exhausted = snapshot.friction(place).load.overlap_exhausted;
+            let exhausted = wrenches.friction(place).load.overlap_exhausted;
             if exhausted && self.exhausted.insert(place) {
                 self.warning(&format!(
                     "{}: the overlap of its joint is used up at time {}; a thousandth of \
@@ -235,16 +239,38 @@ impl<W: Write> Journal<W> {
         Ok(())
     }
 
-    /// The end: what failed, the table of friction and the timing.
-    pub(crate) fn finish(
-        &mut self,
-        failure: Option<&str>,
-        table: &str,
-        elapsed: f64,
-    ) -> Result<(), OutputError> {
+    /// The table of friction, and what LUGRE did that one should know.
+    pub(crate) fn frictions(&mut self, reports: &[FrictionReport]) -> Result<(), OutputError> {
+        let table = friction_table(reports);
         if !table.is_empty() {
             self.note(&format!("\nFriction:\n{table}"))?;
         }
+        for remarks in reports.iter().filter_map(FrictionReport::remarks) {
+            self.note(&remarks)?;
+        }
+        Ok(())
+    }
+
+    /// The energy balance of the run, with a warning where it does not close.
+    pub(crate) fn balance(&mut self, balance: &EnergyBalance) -> Result<(), OutputError> {
+        let unit = &balance.unit;
+        self.note(&format!("\nEnergy balance ({unit}):\n{balance}\n"))?;
+        if balance.residual_share() > SUSPICIOUS {
+            self.warning(&format!(
+                "the energy balance of the run does not close: {:.1e} of the energy exchanged is \
+                 unaccounted for; a smaller error of the INTEGRATOR makes the results better",
+                balance.residual_share()
+            ))?;
+        }
+        Ok(())
+    }
+
+    /// The end: what failed and the timing.
+    pub(crate) fn finish(
+        &mut self,
+        failure: Option<&str>,
+        elapsed: f64,
+    ) -> Result<(), OutputError> {
         let processor = processor_time().zip(self.processor);
         let cpu = processor.map_or(elapsed, |(now, start)| now - start);
         let written = match failure {

@@ -16,7 +16,8 @@
 //! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs` |
 //! | events | `sensors.rs` |
 //! | message file | `journal.rs`, LIST in `listing.rs` |
-//! | table of friction | `report.rs` |
+//! | our own channels of a friction | `friction_detail.rs` |
+//! | table of friction, energy balance | `report.rs`, `balance.rs`, `text_table.rs` |
 //! | a look without a run | `check.rs` |
 //!
 //! # Example
@@ -40,10 +41,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod balance;
 mod channels;
 mod check;
 mod defaults;
 mod failure;
+mod friction_detail;
 mod journal;
 mod listing;
 mod loader;
@@ -57,8 +60,10 @@ mod sensors;
 mod session;
 mod settings;
 mod statics;
+mod text_table;
 mod wrenches;
 
+pub use balance::{EnergyBalance, EnergyTerm};
 pub use check::{CheckReport, check};
 pub use defaults::{FrictionDefaults, defaults_in_use};
 pub use message::{InputError, Message};

@@ -7,11 +7,13 @@ use std::time::Instant;
 use mechanics::{Observer, Snapshot, StepReport};
 use results::{DataKind, ReqWriter, ResWriter, StepRow, WriteError};
 
+use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row};
 use crate::journal::Journal;
 use crate::lower::Outputs;
 use crate::report::{self, FrictionReport};
 use crate::session::{OutputError, Progress, Watch};
+use crate::wrenches::Wrenches;
 
 /// Why writing stops a run.
 pub(crate) enum Stop {
@@ -31,6 +33,7 @@ pub(crate) struct Recorder<W: Write> {
     pub(crate) outputs: Outputs,
     pub(crate) row: Row,
     pub(crate) frictions: Vec<FrictionReport>,
+    pub(crate) account: EnergyAccount,
     /// Rows written after the initial conditions.
     pub(crate) count: usize,
 }
@@ -57,40 +60,63 @@ impl<W: Write> Recorder<W> {
 
     /// Begins a block of rows.
     pub(crate) fn begin(&mut self, kind: DataKind) -> Result<(), OutputError> {
+        self.account.pause();
         self.res
             .begin_data(kind)
             .map_err(|error| self.res_error(&error))
+    }
+
+    /// Begins the rows of a dynamic simulation that starts at this instant.
+    pub(crate) fn begin_dynamic(&mut self, snapshot: &Snapshot<'_>) -> Result<(), OutputError> {
+        self.begin(DataKind::Dynamic)?;
+        self.account.begin(&Wrenches::new(snapshot));
+        Ok(())
     }
 
     /// The assembled model at its start.
     pub(crate) fn initial(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
         self.begin(DataKind::InitialConditions)
             .map_err(Stop::Output)?;
-        self.write(snapshot)
+        self.write(&Wrenches::new(snapshot))
+    }
+
+    /// The start of a motion from an equilibrium whose requests are written already.
+    pub(crate) fn initial_without_requests(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
+        self.begin(DataKind::InitialConditions)
+            .map_err(Stop::Output)?;
+        self.write_results(&Wrenches::new(snapshot))
     }
 
     /// A row at an output time.
-    fn output(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
-        self.write(snapshot)?;
+    fn output(&mut self, wrenches: &Wrenches<'_>) -> Result<(), Stop> {
+        self.account.output(wrenches);
+        self.write(wrenches)?;
         self.count += 1;
         Ok(())
     }
 
-    fn write(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
-        self.channels.fill(&self.outputs, snapshot, &mut self.row);
+    fn write(&mut self, wrenches: &Wrenches<'_>) -> Result<(), Stop> {
+        self.write_results(wrenches)?;
+        let dissipated = self.account.dissipated();
+        report::add(&mut self.frictions, wrenches, dissipated);
+        let time = wrenches.snapshot().time();
+        let written = self.req.step(time, &self.row.requests);
+        written.map_err(|error| Stop::Output(OutputError::new(self.path(1), &error)))
+    }
+
+    fn write_results(&mut self, wrenches: &Wrenches<'_>) -> Result<(), Stop> {
+        let (outputs, dissipated) = (&self.outputs, self.account.dissipated());
+        self.channels
+            .fill(outputs, wrenches, dissipated, &mut self.row);
+        let time = wrenches.snapshot().time();
         if let Some(column) = self.row.values.iter().position(|value| !value.is_finite()) {
             let name = self.channels.layout().name_of(column).unwrap_or_default();
-            let time = snapshot.time();
             return Err(Stop::NotFinite(format!(
                 "the result {name} is not a finite number at time {time}"
             )));
         }
-        report::add(&mut self.frictions, snapshot);
-        let time = snapshot.time();
         let written = self.res.step(time, &self.row.values);
-        written.map_err(|error| Stop::Output(self.res_error(&error)))?;
-        let written = self.req.step(time, &self.row.requests);
-        written.map_err(|error| Stop::Output(OutputError::new(self.path(1), &error)))
+        written.map_err(|error| Stop::Output(self.res_error(&error)))
     }
 }
 
@@ -141,9 +167,10 @@ impl<W: Write> Observer for Observe<'_, W> {
     }
 
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
-        let written = self.recorder.output(snapshot);
+        let wrenches = Wrenches::new(snapshot);
+        let written = self.recorder.output(&wrenches);
         let warned = written.and_then(|()| {
-            let watched = self.log.watch_overlap(snapshot);
+            let watched = self.log.watch_overlap(&wrenches);
             let watched = watched.and_then(|()| self.log.watch_redundant(snapshot, self.length));
             watched.map_err(Stop::Output)
         });

@@ -1,17 +1,25 @@
 //! The table of friction that a run ends with.
 
-use friction::Regime;
-use mechanics::Snapshot;
+use mechanics::model::Law;
+use mechanics::{Snapshot, Tally};
 use results::UnitNames;
 
-/// What the friction of one joint did during a run, seen at the output times.
+use crate::friction_detail::number;
+use crate::text_table::text_table;
+use crate::wrenches::Wrenches;
+
+/// A drift above this part of the largest bristle deflection is told: below it is what the steps of
+/// the integrator leave open.
+const DRIFT: f64 = 1e-6;
+
+/// What the friction of one joint did during a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrictionReport {
     /// The FRICTION, such as `FRICTION/3 (HINGE)`.
     pub friction: String,
     /// Its joint.
     pub joint: String,
-    /// Largest magnitude of the friction force (sliding joint) or torque.
+    /// Largest magnitude of the friction force (sliding joint) or torque at an output.
     pub peak: f64,
     /// Time of the peak.
     pub peak_time: f64,
@@ -21,14 +29,49 @@ pub struct FrictionReport {
     pub unit: String,
     /// Unit of the energy.
     pub energy_unit: String,
+    /// Unit of creep and drift.
+    pub length_unit: String,
     /// Outputs stuck, in transition and sliding.
     pub regimes: [usize; 3],
     /// Outputs at which the limit of the friction force or torque was reached.
     pub clipped: usize,
-    /// Work done against friction by the trapezoidal rule over the outputs, force × length; it
-    /// holds what is stored in the creep.
+    /// Work that friction took out of the motion, as the integrator integrates it, force × length;
+    /// it holds what is stored in the creep.
+    pub work: f64,
+    /// The energy that it dissipated: the work less what is stored.
     pub energy: f64,
-    last: Option<(f64, f64)>,
+    /// What happened step by step: stick intervals, largest creep, drift.
+    pub tally: Tally,
+    /// Whether it is LUGRE, which drifts.
+    pub lugre: bool,
+}
+
+impl FrictionReport {
+    /// What LUGRE did that a user of it should know: a drift and a damping that may give energy
+    /// back. `None` of ORIGINAL and where there is nothing to tell.
+    #[must_use]
+    pub fn remarks(&self) -> Option<String> {
+        let tally = &self.tally;
+        let mut remarks = Vec::new();
+        let drift = tally.drift.iter().fold(0.0, |sum: f64, d| sum.hypot(*d));
+        if self.lugre && drift > DRIFT * tally.largest_creep {
+            remarks.push(format!(
+                "LUGRE has drifted by {drift:.3e} {} while the joint stuck, {:.3e} times the \
+                 largest deflection of its bristles; ORIGINAL holds without drift",
+                self.length_unit,
+                drift / tally.largest_creep
+            ));
+        }
+        if let Some(time) = tally.not_passive {
+            remarks.push(format!(
+                "from time {time:.6} {} on DAMPING_COEFFICIENT is above 4 G/v, G being the level of \
+                 the friction and v the speed of the surfaces: the bristles may give energy back to \
+                 the motion; a smaller DAMPING_COEFFICIENT avoids it",
+                self.time_unit
+            ));
+        }
+        (!remarks.is_empty()).then(|| format!("{}: {}", self.friction, remarks.join("; ")))
+    }
 }
 
 /// An empty report for each friction of a model.
@@ -45,36 +88,34 @@ pub(crate) fn reports(snapshot: &Snapshot<'_>, units: &UnitNames) -> Vec<Frictio
         } else {
             units.torque()
         },
-        energy_unit: units.torque(),
+        energy_unit: units.energy(),
+        length_unit: units.length.clone(),
         regimes: [0; 3],
         clipped: 0,
+        work: 0.0,
         energy: 0.0,
-        last: None,
+        tally: Tally::default(),
+        lugre: matches!(friction.law, Law::LuGre(_)),
     };
     model.frictions.iter().map(report).collect()
 }
 
-/// Adds an output to the reports of a model's frictions.
-pub(crate) fn add(reports: &mut [FrictionReport], snapshot: &Snapshot<'_>) {
-    for (place, report) in reports.iter_mut().enumerate() {
-        let values = snapshot.friction(place);
+/// Adds an output, up to which the frictions have dissipated so much, to their reports.
+pub(crate) fn add(reports: &mut [FrictionReport], wrenches: &Wrenches<'_>, dissipated: &[f64]) {
+    let snapshot = wrenches.snapshot();
+    for (place, (report, &energy)) in reports.iter_mut().zip(dissipated).enumerate() {
+        let values = wrenches.friction(place);
         let slides = snapshot.model().frictions[place].load.has_force_load();
         let force = if slides { values.force } else { values.torque };
-        let power = values.power;
         if force.norm() > report.peak {
             report.peak = force.norm();
             report.peak_time = snapshot.time();
         }
-        report.regimes[match values.regime {
-            Regime::Stuck => 0,
-            Regime::Transition => 1,
-            Regime::Sliding => 2,
-        }] += 1;
+        report.regimes[number(values.regime)] += 1;
         report.clipped += usize::from(values.clipped);
-        if let Some((time, before)) = report.last {
-            report.energy += 0.5 * (power + before) * (snapshot.time() - time);
-        }
-        report.last = Some((snapshot.time(), power));
+        report.work = snapshot.works()[place];
+        report.energy = energy;
+        report.tally = *snapshot.tally(place);
     }
 }
 
@@ -89,14 +130,22 @@ pub fn friction_table(reports: &[FrictionReport]) -> String {
         return String::new();
     }
     let heads = [
-        "friction", "joint", "peak", "at time", "stuck", "trans.", "sliding", "energy",
+        "friction",
+        "joint",
+        "peak",
+        "at time",
+        "stuck",
+        "trans.",
+        "sliding",
+        "sticks",
+        "largest creep",
+        "dissipated",
     ];
-    let mut rows = vec![heads.map(str::to_owned)];
-    for report in reports {
+    let rows = reports.iter().map(|report| {
         let outputs: usize = report.regimes.iter().sum();
         let share = |count: usize| format!("{:.0} %", 100.0 * count as f64 / outputs.max(1) as f64);
         let clipped = if report.clipped > 0 { " (limited)" } else { "" };
-        rows.push([
+        [
             report.friction.clone(),
             report.joint.clone(),
             format!("{:.4e} {}{clipped}", report.peak, report.unit),
@@ -104,32 +153,10 @@ pub fn friction_table(reports: &[FrictionReport]) -> String {
             share(report.regimes[0]),
             share(report.regimes[1]),
             share(report.regimes[2]),
+            report.tally.sticks.to_string(),
+            format!("{:.3e} {}", report.tally.largest_creep, report.length_unit),
             format!("{:.3e} {}", report.energy, report.energy_unit),
-        ]);
-    }
-    let width = |k: usize| {
-        rows.iter()
-            .map(|row| row[k].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: [usize; 8] = std::array::from_fn(width);
-    let mut table = String::new();
-    for row in &rows {
-        let cells = row
-            .iter()
-            .zip(widths)
-            .enumerate()
-            .map(|(k, (cell, width))| {
-                if k < 2 {
-                    format!("{cell:<width$}")
-                } else {
-                    format!("{cell:>width$}")
-                }
-            });
-        let line: Vec<String> = cells.collect();
-        table += line.join("  ").trim_end();
-        table.push('\n');
-    }
-    table
+        ]
+    });
+    text_table(heads, 2, rows)
 }

@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use dataset::{Change, ChangeKind, CommandKind, Dataset, Simulate, SimulationKind};
 use mechanics::{Assembly, AssemblyError, Ending, Simulation};
-use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
+use results::{Header, MessageWriter, ReqWriter, ResWriter};
 
+use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row, unit_names};
 use crate::failure;
 use crate::journal::Journal;
@@ -159,6 +160,7 @@ impl<'a> Runner<'a> {
                 channels,
                 outputs: lowered.outputs.clone(),
                 row: Row::default(),
+                account: EnergyAccount::new(frictions.len(), &units),
                 frictions,
                 count: 0,
             },
@@ -346,7 +348,7 @@ impl<'a> Runner<'a> {
         );
         let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
         self.log.begin(&choice.settings, &notes, start)?;
-        self.recorder.begin(DataKind::Dynamic)?;
+        self.recorder.begin_dynamic(&self.simulation.snapshot())?;
         let (end, times) = (span.end, span.outputs(start));
         let rows = Observe {
             recorder: &mut self.recorder,
@@ -397,11 +399,15 @@ impl<'a> Runner<'a> {
             Outcome::AssemblyFailed(text) => ("Assembly failed", Some(text.as_str())),
             Outcome::IntegrationFailed(text) => ("Integration failed", Some(text.as_str())),
         };
-        let table = report::friction_table(&self.recorder.frictions);
-        self.log.finish(text, &table, elapsed)?;
+        self.log.frictions(&self.recorder.frictions)?;
+        if let Some(balance) = self.recorder.account.balance() {
+            self.log.balance(balance)?;
+        }
+        self.log.finish(text, elapsed)?;
         let Recorder {
             res,
             frictions,
+            account,
             count,
             files,
             ..
@@ -420,6 +426,7 @@ impl<'a> Runner<'a> {
             warnings: self.log.warnings(),
             statistics: self.simulation.statistics(),
             frictions,
+            balance: account.balance().cloned(),
             files,
             elapsed,
         })

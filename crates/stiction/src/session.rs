@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use mechanics::Statistics;
 
+use crate::balance::EnergyBalance;
 use crate::lower::Measures;
 use crate::message::{InputError, Message};
 use crate::project::Project;
@@ -66,6 +67,8 @@ pub struct RunReport {
     pub statistics: Statistics,
     /// What friction did, by FRICTION.
     pub frictions: Vec<FrictionReport>,
+    /// Energy balance of its dynamic simulations; `None` where there was none.
+    pub balance: Option<EnergyBalance>,
     /// The files written.
     pub files: Vec<PathBuf>,
     /// Wall time, seconds.

@@ -1,15 +1,13 @@
 //! Static and quasi-static simulations: one equilibrium, or one after another.
 
-use std::io::Write;
-
-use mechanics::{Observer, Snapshot};
+use mechanics::Observer;
 use results::DataKind;
 
 use crate::failure;
-use crate::recorder::{Observe, Recorder, Stop};
+use crate::recorder::Observe;
 use crate::runner::{Halt, Recorded, Runner};
 use crate::sensors::{Effect, Sensing, Sensors};
-use crate::session::{Outcome, OutputError, Progress, Watch};
+use crate::session::{Outcome, Progress, Watch};
 use crate::settings::{self, TimeSpan};
 
 impl Runner<'_> {
@@ -105,19 +103,5 @@ impl Runner<'_> {
         } else {
             Err(Halt::Ended(Outcome::Interrupted))
         }
-    }
-}
-
-impl<W: Write> Recorder<W> {
-    /// The start of a motion from an equilibrium whose requests are written already.
-    pub(crate) fn initial_without_requests(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Stop> {
-        self.begin(DataKind::InitialConditions)
-            .map_err(Stop::Output)?;
-        self.channels.fill(&self.outputs, snapshot, &mut self.row);
-        let written = self.res.step(snapshot.time(), &self.row.values);
-        written.map_err(|error| {
-            let path = self.files.first().map(|path| path.display().to_string());
-            Stop::Output(OutputError::new(path.unwrap_or_default(), &error))
-        })
     }
 }

@@ -42,6 +42,11 @@ impl<'a> Wrenches<'a> {
         }
     }
 
+    /// The instant.
+    pub(crate) fn snapshot(&self) -> &'a Snapshot<'a> {
+        self.snapshot
+    }
+
     /// Frame of a marker.
     pub(crate) fn marker(&self, place: usize) -> MarkerFrame {
         self.snapshot.marker(place)
