@@ -4,7 +4,8 @@
 mod joint;
 
 use friction::explicit::{ForceAndTorque, Law};
-use friction::{LuGre, Original};
+use friction::step::odd_step;
+use friction::{Effect, LuGre, Original};
 use joint::{Answer, Joint, Kind, joint, lugre, original};
 use proptest::prelude::*;
 
@@ -128,6 +129,29 @@ proptest! {
         prop_assume!(norm(&joint.surface_velocity()) >= law.transition_velocity);
         let power = dot(&joint.answer().force, &joint.velocity);
         prop_assert!(power <= 0.0, "{power}");
+    }
+
+    /// Stuck, too, friction takes out no less than the creep stores, `N mu_s Dm` times the integral
+    /// of psi. Components with preloads of their own share no such store.
+    #[test]
+    fn original_is_passive_while_stuck(joint in joint(original())) {
+        let Law::Original(law) = joint.law else { unreachable!() };
+        prop_assume!(law.effect != Effect::Sliding && joint.kind != Kind::Cylindrical);
+        let unlimited = Joint {
+            dt: 0.0,
+            maximum: ForceAndTorque { force: 1e40, torque: 1e40 },
+            ..joint
+        };
+        let v = unlimited.surface_velocity();
+        prop_assume!(norm(&v) < law.transition_velocity);
+        let a = unlimited.answer();
+        let level = law.mu_static * a.surface_load + a.surface_preload[0];
+        let creep: [f64; 3] = core::array::from_fn(|k| if k < a.freedoms { joint.state[k] } else { 0.0 });
+        let d = norm(&creep);
+        let along = if d > 0.0 { dot(&creep, &v) / d } else { 0.0 };
+        let stored = level * odd_step(d / law.max_deformation).value * along;
+        let power = dot(&a.force, &v) / a.arms[0];
+        prop_assert!(-power - stored >= -4e-15 * level * norm(&v), "{power} {stored}");
     }
 
     /// Up to the passive speed the bristles take out no less than they store, wherever they stand;
