@@ -23,10 +23,12 @@
 //!
 //! # Limits
 //! * `mu` is twice continuously differentiable in `V` across `Vs` and `c Vs`, and erasing the creep
-//!   at `Vs` causes no jump. It has kinks in `V` at `v = 0` when `D` is not zero, and in direction
-//!   at `d = 0` when `N > 1`; there the derivatives returned take zero for the unit vector.
+//!   at `Vs` causes no jump. It has a kink in `V` at rest where `D` is not zero: there the derivatives
+//!   returned take zero for the unit vector.
 //! * For small motions the joint is a spring of `1.875 mu_s/Dm` and a damper of `1.875 mu_s/Vs` per
 //!   unit of load: under a load below the limit it holds with a bounded creep and no drift.
+//! * At a constant load friction never gives back more than it took: `-F.V` is at least the rate of
+//!   `N mu_s Dm` times the integral of `psi` from 0 to `d/Dm`.
 //! * Whatever moves slower than `Vs` counts as stuck.
 //!
 //! # Source
