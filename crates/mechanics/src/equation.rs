@@ -41,14 +41,21 @@ pub(crate) enum Equation {
 }
 
 /// What an angle is about.
-///
-/// A hooke or universal joint has two pins at right angles, `p` fixed to I and `q` fixed to J. The
-/// angle about a pin is that of the part of I against the cross (about `p`), or of the cross against
-/// the part of J (about `q`), so that `ω_I − ω_J = θ̇_p p + θ̇_q q`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub(crate) enum Axis {
     /// z of J, which z of I is parallel to.
     Z,
+    /// A pin of a cross.
+    Pin(Pin),
+}
+
+/// A pin of the cross of a hooke or universal joint.
+///
+/// The joint has two pins at right angles, `p` fixed to I and `q` fixed to J. The angle about a pin
+/// is that of the part of I against the cross (about `p`), or of the cross against the part of J
+/// (about `q`), so that `ω_I − ω_J = θ̇_p p + θ̇_q q`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pin {
     /// x of I, the pin of I of a hooke joint.
     HookeI,
     /// y of J, the pin of J of a hooke joint.
@@ -59,16 +66,28 @@ pub enum Axis {
     UniversalJ,
 }
 
+impl Pin {
+    /// Whether it is fixed to I, and which axis of its marker it is.
+    pub(crate) const fn axis(self) -> (bool, usize) {
+        match self {
+            Self::HookeI => (true, 0),
+            Self::HookeJ => (false, 1),
+            Self::UniversalI => (true, 2),
+            Self::UniversalJ => (false, 2),
+        }
+    }
+}
+
 impl Axis {
     /// Sign and axes (of I, of J) of sine and cosine: the other pin seen in axes that are fixed to
     /// the part of this one. For a pin of I the part turns, not what is seen: the sign is negative.
     const fn angle(self) -> (f64, [(usize, usize); 2]) {
         match self {
             Self::Z => (1.0, [(0, 1), (0, 0)]),
-            Self::HookeI => (-1.0, [(2, 1), (1, 1)]),
-            Self::HookeJ => (1.0, [(0, 0), (0, 2)]),
-            Self::UniversalI => (-1.0, [(1, 2), (0, 2)]),
-            Self::UniversalJ => (1.0, [(2, 1), (2, 0)]),
+            Self::Pin(Pin::HookeI) => (-1.0, [(2, 1), (1, 1)]),
+            Self::Pin(Pin::HookeJ) => (1.0, [(0, 0), (0, 2)]),
+            Self::Pin(Pin::UniversalI) => (-1.0, [(1, 2), (0, 2)]),
+            Self::Pin(Pin::UniversalJ) => (1.0, [(2, 1), (2, 0)]),
         }
     }
 }
@@ -255,10 +274,10 @@ mod tests {
         Equation::Axes(0, 1),
         Equation::Axes(2, 2),
         Equation::About(Axis::Z),
-        Equation::About(Axis::HookeI),
-        Equation::About(Axis::HookeJ),
-        Equation::About(Axis::UniversalI),
-        Equation::About(Axis::UniversalJ),
+        Equation::About(Axis::Pin(Pin::HookeI)),
+        Equation::About(Axis::Pin(Pin::HookeJ)),
+        Equation::About(Axis::Pin(Pin::UniversalI)),
+        Equation::About(Axis::Pin(Pin::UniversalJ)),
     ];
 
     /// Central differences of `f` over the twelve motions at step 1e-5: truncation 1e-10 times the
@@ -301,8 +320,8 @@ mod tests {
     fn the_angles_about_two_pins_make_the_relative_rotation() {
         let [mut i, mut j] = frames(&Local::zeros());
         for (p, q, pins) in [
-            (0, 1, [Axis::HookeI, Axis::HookeJ]),
-            (2, 2, [Axis::UniversalI, Axis::UniversalJ]),
+            (0, 1, [Pin::HookeI, Pin::HookeJ]),
+            (2, 2, [Pin::UniversalI, Pin::UniversalJ]),
         ] {
             // Turn J about an axis across both pins until they are perpendicular.
             let across = i.axis(p).cross(&j.axis(q)).normalize();
@@ -312,7 +331,7 @@ mod tests {
             let rates = [0.7, -1.9];
             i.omega = j.omega + rates[0] * i.axis(p) + rates[1] * j.axis(q);
             for ((pin, rate), axis) in pins.into_iter().zip(rates).zip([i.axis(p), j.axis(q)]) {
-                let row = Equation::About(pin).evaluate(&i, &j);
+                let row = Equation::About(Axis::Pin(pin)).evaluate(&i, &j);
                 let found = row.jacobian.dot(&local_velocities(&i, &j));
                 assert!((found - rate).abs() < 1e-14, "{pin:?} {found} {rate}");
                 // A torque about the pin acts on I along it, and the opposite on J.

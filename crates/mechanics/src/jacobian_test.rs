@@ -7,8 +7,8 @@ use numerics::linear::Matrix;
 use crate::expression::{Binary, Input, Operation, Program, Unary};
 use crate::measure::{Measure, Quantity};
 use crate::model::{
-    Axis, Body, ForceAndTorque, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart,
-    Label, Law, Level, Marker, Model, Motion, MotionFreedom, SingleForce,
+    Body, ForceAndTorque, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label,
+    Law, Level, Marker, Model, Motion, MotionFreedom, Pin, SingleForce,
 };
 use crate::rotation::Quaternion;
 use crate::state::State;
@@ -192,10 +192,10 @@ fn model(law: &Law) -> Model {
     };
     let loads = [
         (2, FrictionJoint::Cylindrical(sleeve)),
-        (6, FrictionJoint::Pin(Axis::HookeI, pin)),
-        (6, FrictionJoint::Pin(Axis::HookeJ, pin)),
-        (7, FrictionJoint::Pin(Axis::UniversalI, pin)),
-        (7, FrictionJoint::Pin(Axis::UniversalJ, pin)),
+        (6, FrictionJoint::Pin(Pin::HookeI, pin)),
+        (6, FrictionJoint::Pin(Pin::HookeJ, pin)),
+        (7, FrictionJoint::Pin(Pin::UniversalI, pin)),
+        (7, FrictionJoint::Pin(Pin::UniversalJ, pin)),
         (0, FrictionJoint::Revolute(pin)),
         (
             1,

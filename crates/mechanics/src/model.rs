@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 
-pub use crate::equation::Axis;
+pub use crate::equation::Pin;
 use crate::expression::Program;
 use crate::measure::Measure;
 use crate::rotation::Quaternion;
@@ -226,7 +226,7 @@ pub enum FrictionJoint {
     /// Turning about any axis.
     Spherical(friction::SphericalLoad),
     /// Turning about one pin of a hooke or universal joint.
-    Pin(Axis, friction::RevoluteLoad),
+    Pin(Pin, friction::RevoluteLoad),
 }
 
 impl FrictionJoint {

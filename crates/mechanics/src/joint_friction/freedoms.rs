@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::response::{Joining, Response, respond};
 use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
 use crate::equation::{Equation, Local, local_velocities};
-use crate::model::{Axis, Friction, FrictionJoint, Law};
+use crate::model::{Friction, FrictionJoint, Law};
 use crate::state::MarkerFrame;
 use friction::Regime;
 
@@ -220,9 +220,10 @@ fn values<const N: usize>(
 ) -> Values {
     // The axis of the turning freedom, along the axes of J.
     let axis = match friction.load {
-        FrictionJoint::Pin(Axis::HookeI, _) => j.axes.tr_mul(&i.axis(0)),
-        FrictionJoint::Pin(Axis::HookeJ, _) => Vector3::y(),
-        FrictionJoint::Pin(Axis::UniversalI, _) => j.axes.tr_mul(&i.axis(2)),
+        FrictionJoint::Pin(pin, _) => {
+            let (on_i, k) = pin.axis();
+            j.axes.tr_mul(&if on_i { i } else { j }.axis(k))
+        }
         _ => Vector3::z(),
     };
     let spread = |components: &[f64; N]| {

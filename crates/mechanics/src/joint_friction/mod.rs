@@ -34,7 +34,7 @@ pub(crate) use memory::StepEnd;
 pub use memory::{Memory, Tally};
 pub use values::{SurfaceVector, Values};
 
-use crate::equation::{Axis, Equation, Local, LocalMatrix};
+use crate::equation::{Axis, Equation, Local, LocalMatrix, Pin};
 use crate::model::{Friction, FrictionJoint};
 use crate::rotation::skew;
 use crate::state::MarkerFrame;
@@ -115,12 +115,11 @@ fn freedoms(joint: &FrictionJoint) -> &'static [Equation] {
         FrictionJoint::Translational(_) => &[Equation::Along(2)],
         FrictionJoint::Revolute(_) => &[Equation::About(Axis::Z)],
         FrictionJoint::Cylindrical(_) => &[Equation::Along(2), Equation::About(Axis::Z)],
-        FrictionJoint::Pin(axis, _) => match axis {
-            Axis::Z => &[Equation::About(Axis::Z)],
-            Axis::HookeI => &[Equation::About(Axis::HookeI)],
-            Axis::HookeJ => &[Equation::About(Axis::HookeJ)],
-            Axis::UniversalI => &[Equation::About(Axis::UniversalI)],
-            Axis::UniversalJ => &[Equation::About(Axis::UniversalJ)],
+        FrictionJoint::Pin(pin, _) => match pin {
+            Pin::HookeI => &[Equation::About(Axis::Pin(Pin::HookeI))],
+            Pin::HookeJ => &[Equation::About(Axis::Pin(Pin::HookeJ))],
+            Pin::UniversalI => &[Equation::About(Axis::Pin(Pin::UniversalI))],
+            Pin::UniversalJ => &[Equation::About(Axis::Pin(Pin::UniversalJ))],
         },
         FrictionJoint::Spherical(_) => &[],
     }
@@ -195,7 +194,7 @@ fn load_at(
             LoadAt::along_j(load.evaluate(force, moment), Local::zeros())
         }
         FrictionJoint::Spherical(load) => LoadAt::along_j(load.evaluate(force), Local::zeros()),
-        FrictionJoint::Pin(axis, load) => LoadAt::about_pin(*axis, load, i, j, force, moment),
+        FrictionJoint::Pin(pin, load) => LoadAt::about_pin(*pin, load, i, j, force, moment),
     }
 }
 
@@ -212,19 +211,14 @@ impl LoadAt {
 
     /// The load on a pin: that of a revolute joint with the reaction along axes whose z is the pin.
     fn about_pin(
-        axis: Axis,
+        pin: Pin,
         load: &friction::RevoluteLoad,
         i: &MarkerFrame,
         j: &MarkerFrame,
         force: [f64; 3],
         moment: [f64; 3],
     ) -> Self {
-        let (on_i, k) = match axis {
-            Axis::HookeI => (true, 0),
-            Axis::HookeJ => (false, 1),
-            Axis::UniversalI => (true, 2),
-            Axis::UniversalJ | Axis::Z => (false, 2),
-        };
+        let (on_i, k) = pin.axis();
         let own = if on_i { i } else { j };
         // Ground axes to axes whose z is the pin.
         let turn =

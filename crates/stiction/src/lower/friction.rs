@@ -6,7 +6,7 @@ use dataset::{
 use friction::{
     CylindricalLoad, Inputs, LuGre, Original, RevoluteLoad, SphericalLoad, TranslationalLoad,
 };
-use mechanics::model::{self, Axis, ForceAndTorque, FrictionJoint, Law};
+use mechanics::model::{self, ForceAndTorque, FrictionJoint, Law, Pin};
 
 use super::{Lowering, label};
 
@@ -86,10 +86,10 @@ impl Lowering<'_> {
                 inputs,
                 ball_radius: friction.value(Quantity::BallRadius),
             }),
-            (JointKind::Hooke, Some(Yoke::I)) => FrictionJoint::Pin(Axis::HookeI, pin),
-            (JointKind::Hooke, Some(Yoke::J)) => FrictionJoint::Pin(Axis::HookeJ, pin),
-            (JointKind::Universal, Some(Yoke::I)) => FrictionJoint::Pin(Axis::UniversalI, pin),
-            (JointKind::Universal, Some(Yoke::J)) => FrictionJoint::Pin(Axis::UniversalJ, pin),
+            (JointKind::Hooke, Some(Yoke::I)) => FrictionJoint::Pin(Pin::HookeI, pin),
+            (JointKind::Hooke, Some(Yoke::J)) => FrictionJoint::Pin(Pin::HookeJ, pin),
+            (JointKind::Universal, Some(Yoke::I)) => FrictionJoint::Pin(Pin::UniversalI, pin),
+            (JointKind::Universal, Some(Yoke::J)) => FrictionJoint::Pin(Pin::UniversalJ, pin),
             _ => return None,
         })
     }

@@ -1,7 +1,7 @@
 //! Two shafts at an angle, coupled by a cross.
 
 use friction::{Inputs, Original, RevoluteLoad};
-use mechanics::model::{Axis, FrictionJoint, JointKind, Level, Model, MotionFreedom};
+use mechanics::model::{FrictionJoint, JointKind, Level, Model, MotionFreedom, Pin};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::builder::{Builder, v};
@@ -14,10 +14,10 @@ pub(crate) enum Cross {
 }
 
 impl Cross {
-    pub(crate) const fn pins(self) -> [Axis; 2] {
+    pub(crate) const fn pins(self) -> [Pin; 2] {
         match self {
-            Self::Hooke => [Axis::HookeI, Axis::HookeJ],
-            Self::Universal => [Axis::UniversalI, Axis::UniversalJ],
+            Self::Hooke => [Pin::HookeI, Pin::HookeJ],
+            Self::Universal => [Pin::UniversalI, Pin::UniversalJ],
         }
     }
 }
