@@ -172,14 +172,16 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] where they have no unique solution.
     pub fn solve_instant(&mut self) -> Result<(), RunError> {
-        Instant::new(&self.system)
-            .accelerations(
-                &mut self.system,
-                &self.state,
-                &mut self.accelerations,
-                &mut self.multipliers,
-            )
-            .map_err(|failure| self.error(&failure))
+        let solved = Instant::new(&self.system).accelerations(
+            &mut self.system,
+            &self.state,
+            &mut self.accelerations,
+            &mut self.multipliers,
+        );
+        // A jam shows as reactions without a solution, or as one that makes no sense.
+        let jam = GainWatch::new(&self.system).look(&mut self.system, &self.multipliers);
+        self.refuse_jam(jam)?;
+        solved.map_err(|failure| self.error(&failure))
     }
 
     /// Moves the model to an equilibrium at `time`, not before that of the state; forces and motions
@@ -398,6 +400,8 @@ impl Simulation {
                 // has only positions to meet.
                 let further = bdf.time() > crossed;
                 if settings.formulation == Formulation::I3 || !further {
+                    let jam = gains.look(&mut dynamics.system, &dynamics.multipliers);
+                    self.refuse_jam(jam)?;
                     return Err(self.run_error(&error));
                 }
                 crossed = bdf.time();
