@@ -1,15 +1,16 @@
 //! Friction in loops: slider-crank (C01a) and four-bar (C02a).
 
 use friction::parameters::JointType;
-use mechanics::Formulation;
 use mechanics::model::Model;
+use mechanics::{Formulation, Owner};
 use serde_json::Value;
 use verification::{Case, Claim, Rule, Section, check};
 
 use super::{HALVINGS, TURNS, original};
-use crate::runs::{Sample, every, run, settings, turning_points};
-use crate::shared::{number, reference};
-use crate::systems::{four_bar, law, slider_crank};
+use crate::builder::Builder;
+use crate::runs::{Sample, every, run, settings, turned, turning_points};
+use crate::shared::{number, reference, table};
+use crate::systems::{driven_slider_crank, four_bar, law, slider_crank};
 
 /// Turning points of the crank (body 0) that starts at `start`, and its last angle.
 fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {
@@ -104,4 +105,109 @@ fn four_bar_with_friction_in_its_pins() {
     check(&study(&case, exact, 3.2, 4, [8e-3, 1e-3], |vs| {
         four_bar(Some(law(0.25, 0.2, vs, 1e-2 * vs)))
     }));
+}
+
+/// C01d: the torque that keeps the crank at 30 rad/s, without integration of its motion.
+#[test]
+fn torque_of_a_crank_at_constant_speed() {
+    let Some(rows) =
+        reference_data::path("validation/data/C01d_inverse_dynamics_30radps.csv").map(table)
+    else {
+        return;
+    };
+    // The crank starts at 0.5 rad.
+    let full = std::f64::consts::TAU;
+    let mut times: Vec<(f64, &Vec<f64>)> = rows
+        .iter()
+        .map(|row| ((row[0] - 0.5).rem_euclid(full) / 30.0, row))
+        .collect();
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let outputs: Vec<f64> = times.iter().map(|(time, _)| *time).collect();
+    let torques = |law| {
+        let mut torques = Vec::new();
+        let settings = settings(Formulation::Si2, 1e-9, 1e-3);
+        run(driven_slider_crank(law), &outputs, &settings, |s| {
+            torques.push(s.reaction(Owner::Motion(0)).torque.z);
+        });
+        torques
+    };
+    let work = |law| {
+        let settings = settings(Formulation::Si2, 1e-9, 1e-5);
+        let end = run(driven_slider_crank(law), &[full / 30.0], &settings, |_| {});
+        *end.state().works().last().expect("the work of motions")
+    };
+    let column = |k: usize| times.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>();
+    let law = law(0.25, 0.2, 1e-5, 1e-7);
+    let (with, without) = (torques(Some(law)), torques(None));
+    let covers = [
+        original(JointType::Translational, &["INPUTS"]),
+        original(JointType::Revolute, &["PIN_RADIUS", "INPUTS"]),
+    ]
+    .concat();
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C01d",
+        model: "the slider-crank of C01 at 30 rad/s, μ 0.2 in the guide and in its pins of 15 mm",
+        source: "Newton and Euler's equations with friction of the same reactions, 1e-13",
+        covers: &covers,
+    };
+    let exact = column(1);
+    let why = "the position of the crank is prescribed: the solver's equations at an instant";
+    let works = "the power jumps where a joint turns back, within a step of 10 µs";
+    check(&[
+        case.values("drive torque at 24 angles [N m]", &with, &exact, 1e-8, why),
+        case.values(
+            "the same without friction [N m]",
+            &without,
+            &column(2),
+            1e-8,
+            why,
+        ),
+        case.values(
+            "work of a turn, with and without friction [J]",
+            &[work(Some(law)), work(None)],
+            &[12.252_386_296_5, 0.0],
+            5e-4,
+            works,
+        ),
+    ]);
+}
+
+/// C02b: without weight the path does not depend on the speed: three times as fast, a third of the time.
+#[test]
+fn four_bar_without_weight_scales_with_its_speed() {
+    let angles = |faster: f64| {
+        let vs = 1e-3 * faster;
+        let mut b = Builder {
+            model: four_bar(Some(law(0.25, 0.2, vs, 1e-5))),
+        };
+        b.model.gravity.fill(0.0);
+        b.start_turning(0, 20.0 * faster);
+        let mut angles = Vec::new();
+        // Unwrapped by hand: it turns less than half a turn between outputs.
+        let settings = settings(Formulation::Si2, 1e-11, 0.01 / faster);
+        run(
+            b.model,
+            &[0.1, 0.25, 0.5, 1.0].map(|t| t / faster),
+            &settings,
+            |s| {
+                angles.push(turned(s, 0));
+            },
+        );
+        angles
+    };
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C02b",
+        model: "the four-bar of C02 without weight, at 20 and 60 rad/s, Vs 1 and 3 mm/s",
+        source: "scaling of time: Coulomb friction and inertia forces both go with the speed squared",
+        covers: &original(JointType::Revolute, &["PIN_RADIUS"]),
+    };
+    check(&[case.values(
+        "angle of the crank at 0.1, 0.25, 0.5, 1 s and at a third of these, within a turn [rad]",
+        &angles(3.0),
+        &angles(1.0),
+        1e-8,
+        "other steps at the start; the error of a step is 1e-11",
+    )]);
 }

@@ -18,6 +18,7 @@ mod sleeves;
 mod slopes;
 mod spatial;
 mod springs;
+mod statics;
 
 use friction::parameters::JointType;
 use verification::{Coverage, Formulation};

@@ -2,7 +2,7 @@
 //! with friction.
 
 use friction::{Inputs, Original, TranslationalLoad};
-use mechanics::model::{FrictionJoint, JointKind, Model};
+use mechanics::model::{FrictionJoint, JointKind, Level, Model, MotionFreedom};
 use nalgebra::Vector3;
 
 use crate::builder::{Builder, v};
@@ -96,6 +96,21 @@ pub(crate) fn slider_crank(law: Option<Original>) -> Model {
     if let Some(law) = law {
         b.friction(guide, law, FrictionJoint::Translational(load));
     }
+    b.model
+}
+
+/// C01d: the slider-crank driven at 30 rad/s (motion 0), with friction in its pins of 15 mm radius too.
+pub(crate) fn driven_slider_crank(law: Option<Original>) -> Model {
+    let mut b = Builder {
+        model: slider_crank(law),
+    };
+    for joint in 0..3 {
+        if let Some(law) = law {
+            b.friction(joint, law, pin_load(0.015, 1.0));
+        }
+    }
+    b.drive(0, MotionFreedom::AboutZ, Level::Position, 30.0);
+    b.start_turning(0, 30.0);
     b.model
 }
 

@@ -11,7 +11,7 @@ pub(crate) mod turning;
 
 pub(crate) use andrews::{andrews, body_angles};
 pub(crate) use cross::{Cross, shafts};
-pub(crate) use linkages::{bricard, four_bar, four_bar_chain, slider_crank};
+pub(crate) use linkages::{bricard, driven_slider_crank, four_bar, four_bar_chain, slider_crank};
 pub(crate) use rigid::{free_body, pendulum, top};
 pub(crate) use sleeve::Sleeve;
 pub(crate) use spatial::rssr;
