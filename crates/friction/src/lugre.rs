@@ -103,6 +103,7 @@ impl LuGre {
     /// let steady = law.evaluate(&[1e-3], &[0.0], 1e6, 1.0, &[0.0], 1e-12);
     /// assert!((steady.force[0] + 1.18433972).abs() < 1e-8);
     /// ```
+    #[inline]
     pub fn evaluate<const N: usize>(
         &self,
         velocity: &[f64; N],
@@ -164,6 +165,7 @@ impl LuGre {
     /// The Stribeck curve `g(v)` at the surface speed `v` (length/time), and its slope.
     ///
     /// The slope is zero at rest, where it does not exist for exponents of one and less.
+    #[inline]
     pub fn stribeck(&self, speed: f64) -> (f64, f64) {
         let ratio = speed / self.stribeck_velocity;
         let decay = power(ratio, self.stribeck_exponent);

@@ -119,6 +119,7 @@ impl Original {
     /// let at_rest = law.evaluate(&[0.0], &[0.005]);
     /// assert!((at_rest.mu[0] + 0.237890625).abs() < 1e-15);
     /// ```
+    #[inline]
     pub fn evaluate<const N: usize>(
         &self,
         velocity: &[f64; N],
@@ -242,7 +243,8 @@ struct Saturated<const N: usize> {
     length: f64,
     unit: [f64; N],
     value: [f64; N],
-    jacobian: [[f64; N]; N],
+    /// `psi(|x|/scale)/|x|`: what a change across `x` is multiplied by.
+    across: f64,
     /// `psi(|x|/scale)`.
     magnitude: f64,
     /// `1 - psi(|x|/scale)`.
@@ -255,16 +257,20 @@ impl<const N: usize> Saturated<N> {
     fn new(x: &[f64; N], scale: f64) -> Self {
         let (length, unit) = length_and_direction(x);
         let psi = odd_step(length / scale);
-        let (across, along) = (psi.ratio / scale, psi.slope / scale);
         Self {
             length,
             unit,
             value: unit.map(|c| psi.value * c),
-            jacobian: matrix(|i, j| across * delta(i, j) + (along - across) * unit[i] * unit[j]),
+            across: psi.ratio / scale,
             magnitude: psi.value,
             complement: psi.complement,
-            slope: along,
+            slope: psi.slope / scale,
         }
+    }
+
+    /// Derivative of component `i` of the value by component `j` of `x`.
+    fn derivative(&self, i: usize, j: usize) -> f64 {
+        self.across * delta(i, j) + (self.slope - self.across) * self.unit[i] * self.unit[j]
     }
 }
 
@@ -285,9 +291,9 @@ impl<const N: usize> Blend<N> {
                 -(velocity.value[i] + velocity.complement * creep.value[i])
             }),
             by_velocity: matrix(|i, j| {
-                velocity.slope * creep.value[i] * velocity.unit[j] - velocity.jacobian[i][j]
+                velocity.slope * creep.value[i] * velocity.unit[j] - velocity.derivative(i, j)
             }),
-            by_creep: matrix(|i, j| -velocity.complement * creep.jacobian[i][j]),
+            by_creep: matrix(|i, j| -velocity.complement * creep.derivative(i, j)),
             beta: velocity.magnitude,
             elastic: creep.magnitude,
         }
@@ -296,7 +302,7 @@ impl<const N: usize> Blend<N> {
     fn without_creep(velocity: Saturated<N>) -> Self {
         Self {
             direction: velocity.value.map(|c| -c),
-            by_velocity: velocity.jacobian.map(|row| row.map(|c| -c)),
+            by_velocity: matrix(|i, j| -velocity.derivative(i, j)),
             by_creep: [[0.0; N]; N],
             beta: 1.0,
             elastic: 0.0,

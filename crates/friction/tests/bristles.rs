@@ -370,3 +370,25 @@ fn the_formula_of_the_step_holds() {
         }
     }
 }
+
+/// The bristles give energy out for a moment above the passive speed, and never below it: at the
+/// deflection that is worst, `s0 z = s1 v/2`, the sign changes just there.
+#[test]
+fn the_passive_speed_is_sharp() {
+    let law = LuGre {
+        viscous: 0.0,
+        damping: 1e4,
+        ..canudas()
+    };
+    // Level and speed depend on one another; far above the Stribeck velocity the level is mu_d N.
+    let load = 50.0;
+    let limit = law.passive_speed(law.mu_dynamic * load);
+    assert!(limit > 5.0 * law.stribeck_velocity);
+    for (share, gives) in [(0.99, false), (1.01, true)] {
+        let v = share * limit;
+        let z = 0.5 * law.damping * v / law.bristle_stiffness;
+        let (friction, rate) = at(&law, v, z, load);
+        let dissipated = friction * v - law.bristle_stiffness * z * rate;
+        assert_eq!(dissipated < 0.0, gives, "{dissipated} at {v}");
+    }
+}
