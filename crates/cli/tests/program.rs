@@ -182,7 +182,6 @@ fn wrong_usage_is_2() {
 #[test]
 fn wrong_input_is_3_with_its_place() {
     let broken = PENDULUM.replace("REVOLUTE", "REVOLUT, BEND=3");
-    let lugre = PENDULUM.replace("MU_STATIC", "FORMULATION=LUGRE, MU_STATIC");
     let reading = PENDULUM.replace(
         "END",
         "SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=USER(1)\nMOTION/1, JOINT=1, ROTATIONAL, \
@@ -190,7 +189,6 @@ fn wrong_input_is_3_with_its_place() {
     );
     let files = [
         ("broken.adm", broken.as_str()),
-        ("lugre.adm", lugre.as_str()),
         ("reading.adm", reading.as_str()),
         (
             "lost.acf",
@@ -201,10 +199,6 @@ fn wrong_input_is_3_with_its_place() {
     let folder = folder("input", &files);
     for (file, words) in [
         ("broken.adm", &["broken.adm:9:", "BEND"][..]),
-        (
-            "lugre.adm",
-            &["lugre.adm:10:1: error[", "LUGRE is not simulated yet"],
-        ),
         (
             "reading.adm",
             &[
@@ -277,20 +271,20 @@ fn a_failed_integration_is_5_and_keeps_the_results() {
 }
 
 #[test]
-fn commands_go_on_from_each_other_and_statics_end_the_run() {
+fn commands_go_on_from_each_other_and_one_that_is_not_simulated_ends_the_run() {
     let commands = "
 FILE/MODEL=C:\\Users\\someone\\models\\p, OUTPUT_PREFIX=swing
 SIMULATE/DYNAMIC, END=0.1, STEPS=10
 FRICTION/103, MU_STATIC=0.5, MU_DYNAMIC=0.5
 SIMULATE/DYNAMIC, DURATION=0.1, DTOUT=0.02
-SIMULATE/STATIC
+SIMULATE/SETTLE
 SIMULATE/DYNAMIC, END=3, STEPS=10
 ";
     let folder = folder("commands", &[("p.adm", PENDULUM), ("p.acf", commands)]);
     let output = stiction(&folder, &["run", "p.acf"]);
     assert_eq!(code(&output), 3, "{}", errors(&output));
     assert!(
-        errors(&output).contains("p.acf:6:1: SIMULATE/STATIC"),
+        errors(&output).contains("p.acf:6:1: SIMULATE/SETTLE"),
         "{}",
         errors(&output)
     );
@@ -301,7 +295,7 @@ SIMULATE/DYNAMIC, END=3, STEPS=10
     assert_eq!(code(&check), 3);
     let said = String::from_utf8_lossy(&check.stdout).into_owned();
     assert!(
-        said.contains("SIMULATE/STATIC is not simulated yet"),
+        said.contains("SIMULATE/SETTLE is not simulated yet"),
         "{said}"
     );
 }
@@ -430,7 +424,7 @@ MARKER/1, PART=1
 PART/2, MASS=-1, CM=20, IP=0.1, 0.1, 0.1
 MARKER/20, PART=2
 JOINT/1, CYLINDRICAL, I=20, J=1
-FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2
+SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=USER(1)
 END
 ";
     let folder = folder("together", &[("both.adm", text)]);
@@ -442,7 +436,7 @@ END
         "{said}"
     );
     assert!(
-        said.contains("both.adm:7:1: error[unsupported-statement]"),
+        said.contains("both.adm:7:46: error[unsupported-function]"),
         "{said}"
     );
 }
