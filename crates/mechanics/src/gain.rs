@@ -19,7 +19,7 @@ use crate::joint_friction::Share;
 use crate::model::{Element, Label};
 use crate::system::System;
 
-/// A friction whose gain is one or more.
+/// A friction whose gain is one or more, or as near to one as makes equations unsolvable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jam {
     /// The friction.
@@ -30,6 +30,8 @@ pub struct Jam {
 
 /// Bound of the gains from which on every step is looked at.
 const LOOK_ALWAYS: f64 = 0.5;
+/// A gain from which on a failure to solve the equations is put down to it.
+const NEAR_ONE: f64 = 0.9;
 /// Steps between two looks at most.
 const LONGEST_INTERVAL: f64 = 1000.0;
 
@@ -90,20 +92,34 @@ impl GainWatch {
         if bound < 1.0 {
             return Ok(None);
         }
+        Ok(self.largest(system).filter(|jam| jam.gain >= 1.0))
+    }
+
+    /// The largest gain at the instant evaluated last, where it is near enough to one to explain why
+    /// no solution is found.
+    pub(crate) fn explain(&mut self, system: &mut System, multipliers: &[f64]) -> Option<Jam> {
+        if system.model.frictions.is_empty() {
+            return None;
+        }
+        self.gains(system, multipliers).ok()?;
+        self.largest(system).filter(|jam| jam.gain >= NEAR_ONE)
+    }
+
+    fn largest(&self, system: &System) -> Option<Jam> {
+        if self.gains.iter().any(|gain| !gain.is_finite()) {
+            return None;
+        }
         let eigenvalues = self.gains.complex_eigenvalues();
         let real = eigenvalues.iter().filter(|value| value.im == 0.0);
         let gain = real.fold(f64::NEG_INFINITY, |m, value| m.max(value.re));
-        if gain < 1.0 {
-            return Ok(None);
-        }
         // The friction that takes the largest part in the loop.
         let worst = (0..self.gains.nrows())
             .max_by(|&a, &b| self.gains[(a, a)].total_cmp(&self.gains[(b, b)]))
             .unwrap_or(0);
-        Ok(Some(Jam {
+        Some(Jam {
             friction: system.model.frictions[worst].label.clone(),
             gain,
-        }))
+        })
     }
 
     /// Fills the matrix of gains; returns a bound of its eigenvalues, whatever way the joints slide

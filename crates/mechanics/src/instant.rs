@@ -47,6 +47,7 @@ pub(crate) struct Instant {
     force: Vec<f64>,
     momentum: Vec<f64>,
     zero: Vec<f64>,
+    guess: Vec<f64>,
 }
 
 impl Instant {
@@ -60,6 +61,7 @@ impl Instant {
             force: vec![0.0; n],
             momentum: vec![0.0; n],
             zero: vec![0.0; n],
+            guess: vec![0.0; system.row_count()],
         }
     }
 
@@ -72,6 +74,7 @@ impl Instant {
         accelerations: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<(), Failure> {
+        self.guess.copy_from_slice(multipliers);
         system.set_statics(false);
         system.set_bristles(&state.values[state.bristle_range()], 0.0);
         system.evaluate(state, false);
@@ -112,6 +115,11 @@ impl Instant {
             last = change;
         }
         Err(Failure::NotConverged { unknown: worst })
+    }
+
+    /// The multipliers that the last solution started from.
+    pub(crate) fn guess(&self) -> &[f64] {
+        &self.guess
     }
 
     /// Builds and factors the matrix at the state evaluated last. At γ = 0 it needs no derivatives

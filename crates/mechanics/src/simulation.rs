@@ -172,7 +172,8 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] where they have no unique solution.
     pub fn solve_instant(&mut self) -> Result<(), RunError> {
-        let solved = Instant::new(&self.system).accelerations(
+        let mut instant = Instant::new(&self.system);
+        let solved = instant.accelerations(
             &mut self.system,
             &self.state,
             &mut self.accelerations,
@@ -181,7 +182,7 @@ impl Simulation {
         // A jam shows as reactions without a solution, or as one that makes no sense.
         let jam = GainWatch::new(&self.system).look(&mut self.system, &self.multipliers);
         self.refuse_jam(jam)?;
-        solved.map_err(|failure| self.error(&failure))
+        solved.map_err(|failure| self.unsolved(&failure, &instant))
     }
 
     /// Moves the model to an equilibrium at `time`, not before that of the state; forces and motions
@@ -400,9 +401,10 @@ impl Simulation {
                 // has only positions to meet.
                 let further = bdf.time() > crossed;
                 if settings.formulation == Formulation::I3 || !further {
-                    let jam = gains.look(&mut dynamics.system, &dynamics.multipliers);
-                    self.refuse_jam(jam)?;
-                    return Err(self.run_error(&error));
+                    let jam = gains.explain(&mut dynamics.system, &dynamics.multipliers);
+                    return Err(
+                        jam.map_or_else(|| self.run_error(&error), |jam| jammed(bdf.time(), &jam))
+                    );
                 }
                 crossed = bdf.time();
                 self.restart(bdf, dynamics, instant, settings)?;
@@ -487,7 +489,20 @@ impl Simulation {
                     &mut self.multipliers,
                 )
             });
-        solved.map_err(|failure| self.error(&failure))
+        solved.map_err(|failure| self.unsolved(&failure, instant))
+    }
+
+    /// An instant that could not be solved: a jam where that explains it, with the reactions as the
+    /// iteration left them or as it found them.
+    fn unsolved(&mut self, failure: &Failure, instant: &Instant) -> RunError {
+        let mut watch = GainWatch::new(&self.system);
+        let jam = match failure {
+            Failure::NotConverged { .. } | Failure::Singular(_) => watch
+                .explain(&mut self.system, &self.multipliers)
+                .or_else(|| watch.explain(&mut self.system, instant.guess())),
+            _ => None,
+        };
+        jam.map_or_else(|| self.error(failure), |jam| jammed(self.state.time, &jam))
     }
 
     /// State, accelerations and reactions at `time` within the last accepted step.
@@ -631,8 +646,8 @@ fn jammed(time: f64, jam: &Jam) -> RunError {
     RunError {
         time,
         message: format!(
-            "{} jams: the friction that a load causes adds {:.3} times as much to that load, a gain \
-             of one or more; no motion obeys Coulomb's law here",
+            "{} jams: the friction that a load causes adds {:.3} times as much to that load, and at \
+             a gain of one the loads grow without bound; no motion obeys Coulomb's law beyond",
             jam.friction, jam.gain
         ),
         element: Some(jam.friction.clone()),
