@@ -38,7 +38,9 @@
 #[cfg(feature = "std")]
 extern crate std;
 #[cfg(not(any(feature = "std", feature = "libm")))]
-compile_error!("enable one of the features `std` (default) and `libm` for the square root");
+compile_error!(
+    "enable one of the features `std` (default) and `libm` for square root, exponential and power"
+);
 
 /// Runs the example of the README.
 #[cfg(doctest)]

@@ -315,6 +315,40 @@ proptest! {
         }
     }
 
+    /// Nor have the bristles at a given deflection: `v/G(v)` has the slope `(1 - v G'/G)/G`, and
+    /// `v g'` is at most `(mu_s - mu_d) delta/e`.
+    #[test]
+    fn lugre_is_continuous(
+        joint in joint(lugre()),
+        other in prop::array::uniform3(-1.0..1.0f64),
+        distance in -12.0..1.0f64,
+    ) {
+        let Law::LuGre(law) = joint.law else { unreachable!() };
+        let fixed = Joint { dt: 0.0, ..joint };
+        let moved = Joint {
+            velocity: core::array::from_fn(|k| {
+                joint.velocity[k] + 10f64.powf(distance) * other[k] * law.stribeck_velocity
+            }),
+            ..fixed
+        };
+        let (a, b) = (fixed.answer(), moved.answer());
+        let (v, w) = (fixed.surface_velocity(), moved.surface_velocity());
+        let step = norm(&core::array::from_fn(|k| v[k] - w[k]));
+        let fall = (law.mu_static - law.mu_dynamic) * law.stribeck_exponent / 1f64.exp();
+        let mut bound = [0.0; 3];
+        for k in 0..a.freedoms {
+            let level = (law.mu_dynamic * a.surface_load + a.surface_preload[k]).max(1e-12);
+            let decay = (1.0 + fall * a.surface_load / level) / level;
+            let elastic = law.bristle_stiffness * joint.state[k].abs();
+            let slope = law.damping * (1.0 + elastic * decay) + law.viscous;
+            bound[k] = a.arms[k] * slope * step;
+        }
+        let size = size(&fixed, &a).max(size(&moved, &b));
+        let difference: [f64; 3] = core::array::from_fn(|k| a.force[k] - b.force[k]);
+        // The clip of a vector is no expansion.
+        prop_assert!(norm(&difference) <= norm(&bound) + 1e-13 * size, "{difference:?} {bound:?}");
+    }
+
     /// Derivatives by velocity and load agree with differences, except within the reach of a kink,
     /// where two differences do not agree with each other.
     #[test]
