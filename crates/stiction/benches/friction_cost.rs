@@ -2,6 +2,9 @@
 //!
 //! Prints steps, rejections, residuals, factorisations and time per accepted step for both, and a
 //! stuck mechanism whose steps are limited by its outputs only.
+//!
+//! `cargo bench -p stiction --bench friction_cost`
+#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::path::Path;
 use std::time::Instant;
@@ -22,10 +25,7 @@ impl Watch for Silent {
 /// Elapsed seconds and report of one run.
 fn run(project: &Project, folder: &Path) -> (f64, RunReport) {
     let session = Session::new(project).expect("the model is simulated");
-    let options = RunOptions {
-        error: Some(1e-6),
-        ..RunOptions::default()
-    };
+    let options = RunOptions { error: Some(1e-6) };
     let start = Instant::now();
     let report = session
         .run(folder, options, &mut Silent)
@@ -55,6 +55,35 @@ fn project(path: &Path, end: f64, steps: u32) -> Project {
     project
 }
 
+/// A block below its angle of friction, whose steps only its outputs keep short.
+const HELD: &str = "A block held on an incline of 10 degrees
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1, REULER=0, 80D, 0
+PART/2, MASS=1, CM=20, IP=1, 1, 1, REULER=0, 80D, 0
+MARKER/20, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=1
+FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2
+ACCGRAV/KGRAV=-9.81
+INTEGRATOR/GSTIFF, SI2
+END
+";
+
+fn stuck(folder: &Path) {
+    let path = folder.join("held.adm");
+    std::fs::write(&path, HELD).expect("a dataset is written");
+    let mut project = Project::load(&path).expect("the model is read");
+    project.push_dynamic(10.0, Some(1), None);
+    let (_, settled) = run(&project, folder);
+    project.push_dynamic(1e6, Some(100), None);
+    let (_, held) = run(&project, folder);
+    println!(
+        "stuck: {} steps for the first 10 s, then {} for 1e6 s with 100 outputs",
+        settled.statistics.steps.steps,
+        held.statistics.steps.steps - settled.statistics.steps.steps,
+    );
+}
+
 fn main() {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let folder = std::env::temp_dir().join(format!("stiction-bench-{}", std::process::id()));
@@ -65,7 +94,7 @@ fn main() {
     );
     for (name, end, steps) in [
         ("delta-robot/delta.adm", 1.0, 20),
-        ("pendulum/pendulum.adm", 2.0, 20),
+        ("pendulum/pendulum.adm", 20.0, 20),
     ] {
         let path = examples.join(name);
         let text = std::fs::read_to_string(&path).expect("the example is there");
@@ -103,5 +132,6 @@ fn main() {
             per_step[0] / per_step[1]
         );
     }
+    stuck(&folder);
     std::fs::remove_dir_all(&folder).expect("the folder is removed");
 }

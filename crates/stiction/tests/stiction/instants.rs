@@ -136,7 +136,9 @@ fn worst(changes: &[String]) -> Option<Differences> {
                 .set(&format!("VARIABLE/{variable}, FUNCTION={value}"))
                 .unwrap();
         }
-        simulation.replace_model(project.simulation().unwrap().model().clone());
+        simulation
+            .replace_model(project.simulation().unwrap().model().clone())
+            .unwrap();
         place(&mut simulation, &real, row);
         simulation.solve_instant().unwrap();
         let found = compare(&simulation, &real, row);
