@@ -7,7 +7,7 @@ use friction::{
 use nalgebra::Vector3;
 
 use super::response::{Joining, Response, respond};
-use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
+use super::{BristlePast, Element, LoadAt, Memory, Slopes, SurfaceVector, Values};
 use crate::equation::{Equation, Local, local_velocities};
 use crate::model::{Friction, FrictionJoint, Law};
 use crate::state::MarkerFrame;
@@ -85,7 +85,7 @@ pub(super) fn one(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
-    derivatives: bool,
+    slopes: Option<&mut Slopes>,
 ) -> Element {
     let joining = One {
         friction,
@@ -100,7 +100,7 @@ pub(super) fn one(
         i,
         j,
         &joining,
-        derivatives,
+        slopes,
     )
 }
 
@@ -113,22 +113,14 @@ pub(super) fn cylindrical(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
-    derivatives: bool,
+    slopes: Option<&mut Slopes>,
 ) -> Element {
     let joining = Both {
         friction,
         load: load.load.value,
     };
     evaluate(
-        friction,
-        memory,
-        past,
-        equations,
-        load,
-        i,
-        j,
-        &joining,
-        derivatives,
+        friction, memory, past, equations, load, i, j, &joining, slopes,
     )
 }
 
@@ -141,7 +133,7 @@ fn evaluate<const N: usize>(
     i: &MarkerFrame,
     j: &MarkerFrame,
     joining: &impl Joining<N>,
-    derivatives: bool,
+    slopes: Option<&mut Slopes>,
 ) -> Element {
     let arms = equations.map(|equation| equation.arm(friction.load.arm()));
     let u = local_velocities(i, j);
@@ -179,9 +171,9 @@ fn evaluate<const N: usize>(
         element.force += force[k] * rows[k];
         element.by_load += r.steady_by_load[k] * rows[k];
     }
-    if !derivatives {
+    let Some(slopes) = slopes else {
         return element;
-    }
+    };
     let stiffnesses = equations.map(|equation| equation.stiffness(i, j));
     let velocity_by_position: [Local; N] =
         std::array::from_fn(|k| arms[k] * stiffnesses[k].tr_mul(&u));
@@ -197,11 +189,11 @@ fn evaluate<const N: usize>(
                 position_change += by_creep[k][l] * arms[l] * rows[l];
             }
         }
-        element.by_velocity += rows[k] * velocity_change.transpose();
-        element.by_position += force[k] * stiffnesses[k] + rows[k] * position_change.transpose();
+        slopes.by_velocity += rows[k] * velocity_change.transpose();
+        slopes.by_position += force[k] * stiffnesses[k] + rows[k] * position_change.transpose();
     }
     for (column, slope) in load.by_reaction.iter().enumerate() {
-        element
+        slopes
             .by_reaction
             .set_column(column, &(*slope * along_load));
     }

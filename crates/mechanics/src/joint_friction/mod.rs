@@ -64,7 +64,7 @@ pub(crate) struct BristlePast {
     pub(crate) gamma: f64,
 }
 
-/// Values and derivatives over the local motions of the joint's markers.
+/// Friction over the local motions of the joint's markers.
 pub(crate) struct Element {
     pub(crate) values: Values,
     /// Generalised force on both bodies.
@@ -75,10 +75,6 @@ pub(crate) struct Element {
     pub(crate) steady_coefficient: f64,
     /// Derivative of the load by force and moment of the reaction along the axes of J.
     pub(crate) load_by_reaction: [f64; 6],
-    /// Derivative of the force by the same (columns).
-    pub(crate) by_reaction: SMatrix<f64, 12, 6>,
-    pub(crate) by_velocity: LocalMatrix,
-    pub(crate) by_position: LocalMatrix,
     /// Bristle deflection and its rate, by component.
     pub(crate) deflection: [f64; 3],
     pub(crate) deflection_rate: [f64; 3],
@@ -92,12 +88,27 @@ impl Element {
         by_load: Local::from_array_storage(ArrayStorage([[0.0; 12]])),
         steady_coefficient: 0.0,
         load_by_reaction: [0.0; 6],
-        by_reaction: SMatrix::from_array_storage(ArrayStorage([[0.0; 12]; 6])),
-        by_velocity: LocalMatrix::from_array_storage(ArrayStorage([[0.0; 12]; 12])),
-        by_position: LocalMatrix::from_array_storage(ArrayStorage([[0.0; 12]; 12])),
         deflection: [0.0; 3],
         deflection_rate: [0.0; 3],
     };
+}
+
+/// Derivatives of the generalised force.
+pub(crate) struct Slopes {
+    /// By force and moment of the reaction along the axes of J (columns).
+    pub(crate) by_reaction: SMatrix<f64, 12, 6>,
+    pub(crate) by_velocity: LocalMatrix,
+    pub(crate) by_position: LocalMatrix,
+}
+
+impl Slopes {
+    pub(crate) fn zero() -> Self {
+        Self {
+            by_reaction: SMatrix::zeros(),
+            by_velocity: LocalMatrix::zeros(),
+            by_position: LocalMatrix::zeros(),
+        }
+    }
 }
 
 /// The load on the surfaces and its derivatives for a reaction along the axes of J.
@@ -125,8 +136,8 @@ fn freedoms(joint: &FrictionJoint) -> &'static [Equation] {
     }
 }
 
-/// Friction for a reaction along the axes of J; with `derivatives` also those by velocity, position
-/// and reaction.
+/// Friction for a reaction along the axes of J; derivatives go into `slopes`, which are zero, where
+/// they are wanted.
 pub(crate) fn evaluate(
     friction: &Friction,
     memory: &Memory,
@@ -135,35 +146,17 @@ pub(crate) fn evaluate(
     j: &MarkerFrame,
     force: [f64; 3],
     moment: [f64; 3],
-    derivatives: bool,
+    slopes: Option<&mut Slopes>,
 ) -> Element {
     let load = load_at(friction, memory, i, j, force, moment);
     let equations = freedoms(&friction.load);
     match *equations {
-        [equation] => freedoms::one(
-            friction,
-            memory,
-            bristles,
-            equation,
-            &load,
-            i,
-            j,
-            derivatives,
-        ),
+        [equation] => freedoms::one(friction, memory, bristles, equation, &load, i, j, slopes),
         [along, about] => {
             let equations = [along, about];
-            freedoms::cylindrical(
-                friction,
-                memory,
-                bristles,
-                equations,
-                &load,
-                i,
-                j,
-                derivatives,
-            )
+            freedoms::cylindrical(friction, memory, bristles, equations, &load, i, j, slopes)
         }
-        _ => spherical::evaluate(friction, memory, bristles, &load, i, j, derivatives),
+        _ => spherical::evaluate(friction, memory, bristles, &load, i, j, slopes),
     }
 }
 

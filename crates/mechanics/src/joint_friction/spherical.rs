@@ -6,7 +6,7 @@ use friction::{Bristles, Coefficient, Regime, Resultant, bristle_resultant, resu
 use nalgebra::{Matrix3, Vector3};
 
 use super::response::{Joining, respond};
-use super::{BristlePast, Element, LoadAt, Memory, SurfaceVector, Values};
+use super::{BristlePast, Element, LoadAt, Memory, Slopes, SurfaceVector, Values};
 use crate::equation::{Local, LocalMatrix};
 use crate::model::{Friction, Law};
 use crate::rotation::{log, log_jacobian, skew};
@@ -41,7 +41,7 @@ pub(super) fn evaluate(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
-    derivatives: bool,
+    slopes: Option<&mut Slopes>,
 ) -> Element {
     let arm = friction.load.arm();
     let omega = i.omega - j.omega;
@@ -114,9 +114,9 @@ pub(super) fn evaluate(
         put(&mut element.force, sign * torque);
         put(&mut element.by_load, sign * steady);
     }
-    if !derivatives {
+    let Some(slopes) = slopes else {
         return element;
-    }
+    };
     let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
     // Derivatives of the torque along ground axes by the relative velocity and rotation.
     let by_omega = j.axes * matrix(r.resultant.by_velocity) * arm * to_j;
@@ -127,17 +127,17 @@ pub(super) fn evaluate(
     for (place, sign) in SIDES {
         for k in 0..3 {
             let column = sign * load.by_reaction[k] * along;
-            let mut view = element.by_reaction.fixed_view_mut::<3, 1>(place, k);
+            let mut view = slopes.by_reaction.fixed_view_mut::<3, 1>(place, k);
             view.copy_from(&column);
         }
         let put = |matrix: &mut LocalMatrix, column: usize, block: Matrix3<f64>| {
             let mut view = matrix.fixed_view_mut::<3, 3>(place, column);
             view.copy_from(&(sign * block));
         };
-        put(&mut element.by_velocity, 3, by_omega);
-        put(&mut element.by_velocity, 9, -by_omega);
-        put(&mut element.by_position, 3, by_theta_i);
-        put(&mut element.by_position, 9, by_theta_j);
+        put(&mut slopes.by_velocity, 3, by_omega);
+        put(&mut slopes.by_velocity, 9, -by_omega);
+        put(&mut slopes.by_position, 3, by_theta_i);
+        put(&mut slopes.by_position, 9, by_theta_j);
     }
     element
 }

@@ -8,7 +8,7 @@ use super::{Rows, System};
 use crate::constraint::Form;
 use crate::equation::{Local, LocalMatrix};
 use crate::expression::Input;
-use crate::joint_friction::Share;
+use crate::joint_friction::{Share, Slopes};
 use crate::model::{Element, Level};
 use crate::rotation::skew;
 
@@ -177,22 +177,23 @@ impl System {
             if !self.model.is_active(Element::Friction(place)) {
                 continue;
             }
-            let (element, i, j) = self.friction_with_derivatives(place, multipliers);
+            let mut slopes = Slopes::zero();
+            let (_, i, j) = self.friction_with_slopes(place, multipliers, &mut slopes);
             let sides = [i.body, j.body];
-            let turning = element.by_reaction.fixed_columns::<3>(3)
+            let turning = slopes.by_reaction.fixed_columns::<3>(3)
                 * self.moment_change(place, &i, &j, multipliers);
-            let moving = weights.velocity * element.by_velocity
-                + weights.position * (element.by_position + turning);
+            let moving = weights.velocity * slopes.by_velocity
+                + weights.position * (slopes.by_position + turning);
             self.add_local_matrix(&sides, &moving, -1.0, matrix);
             for contribution in &self.reactions[place] {
                 let Some(row) = self.constraints[contribution.constraint].row else {
                     continue;
                 };
                 let by_multiplier: Local = match contribution.share {
-                    Share::Force(axis) => element.by_reaction.column(axis).into_owned(),
+                    Share::Force(axis) => slopes.by_reaction.column(axis).into_owned(),
                     Share::Moment => {
                         let axis = self.moment_axis(contribution.constraint, &j);
-                        element.by_reaction.fixed_columns::<3>(3) * axis
+                        slopes.by_reaction.fixed_columns::<3>(3) * axis
                     }
                 };
                 for (side, body) in sides.iter().enumerate() {

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::equation::Equation;
-use crate::joint_friction::{self, Element, Share};
+use crate::joint_friction::{self, Element, Share, Slopes};
 use crate::model::Element as ModelElement;
 use crate::rotation::skew;
 use crate::snapshot::Wrench;
@@ -135,23 +135,24 @@ impl System {
         place: usize,
         multipliers: &[f64],
     ) -> (Element, MarkerFrame, MarkerFrame) {
-        self.evaluate_friction(place, multipliers, false)
+        self.evaluate_friction(place, multipliers, None)
     }
 
     /// The same with derivatives by velocity, position and reaction.
-    pub(super) fn friction_with_derivatives(
+    pub(super) fn friction_with_slopes(
         &self,
         place: usize,
         multipliers: &[f64],
+        slopes: &mut Slopes,
     ) -> (Element, MarkerFrame, MarkerFrame) {
-        self.evaluate_friction(place, multipliers, true)
+        self.evaluate_friction(place, multipliers, Some(slopes))
     }
 
     fn evaluate_friction(
         &self,
         place: usize,
         multipliers: &[f64],
-        derivatives: bool,
+        slopes: Option<&mut Slopes>,
     ) -> (Element, MarkerFrame, MarkerFrame) {
         let friction = &self.model.frictions[place];
         let joint = &self.model.joints[friction.joint];
@@ -163,16 +164,8 @@ impl System {
         let memory = &self.history.frictions[place];
         let bristles = self.bristle_past(place);
         let (force, moment) = (force.into(), moment.into());
-        let element = joint_friction::evaluate(
-            friction,
-            memory,
-            bristles,
-            &i,
-            &j,
-            force,
-            moment,
-            derivatives,
-        );
+        let element =
+            joint_friction::evaluate(friction, memory, bristles, &i, &j, force, moment, slopes);
         (element, i, j)
     }
 }
