@@ -29,6 +29,13 @@ pub(crate) enum Command {
     /// Reads and validates the files, assembles the model, and lists its degrees of freedom,
     /// redundant equations, frictions whose joint reaction is not unique, and the defaults in use.
     Check(CheckArguments),
+    /// Tell where the friction in a run came from
+    ///
+    /// Without --friction one line for each FRICTION, the one that dissipated most first. With it
+    /// what that friction did: regimes, stick intervals, largest friction, what made it, energy.
+    /// With --at why it was what it was at that time: load, coefficient, and the share of preload,
+    /// reaction force, bending and torsion.
+    Explain(ExplainArguments),
 }
 
 /// Simulate a model and write its results.
@@ -84,6 +91,30 @@ pub(crate) struct CheckArguments {
     /// Command file (.acf) or dataset (.adm)
     #[arg(value_name = "MODEL")]
     pub(crate) model: PathBuf,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+/// Tell where the friction in a run came from.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:
+  stiction explain pendulum-run
+  stiction explain delta-run --friction 111
+  stiction explain delta-run --friction 111 --at 0.35",
+    after_long_help = EXIT_CODES
+)]
+pub(crate) struct ExplainArguments {
+    /// Folder of a run, or the .res in it
+    #[arg(value_name = "RUN_DIR")]
+    pub(crate) run: PathBuf,
+    /// Id of the FRICTION
+    #[arg(long, value_name = "ID")]
+    pub(crate) friction: Option<u32>,
+    /// The output nearest to this time, in the unit of time of the model
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) at: Option<f64>,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,

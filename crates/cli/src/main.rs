@@ -1,8 +1,9 @@
-//! The program `stiction`: runs and checks Adams Solver datasets.
+//! The program `stiction`: runs, checks and explains Adams Solver datasets.
 
 mod arguments;
 mod check;
 mod exit;
+mod explain;
 mod progress;
 mod record;
 mod run;
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
     let status = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Explain(arguments) => explain::explain(&arguments),
     };
     ExitCode::from(status.code())
 }

@@ -18,6 +18,7 @@
 //! | message file | `journal.rs`, LIST in `listing.rs` |
 //! | our own channels of a friction | `friction_detail.rs` |
 //! | table of friction, energy balance | `report.rs`, `balance.rs`, `text_table.rs` |
+//! | where friction came from, read back | `explain/` |
 //! | a look without a run | `check.rs` |
 //!
 //! # Example
@@ -45,6 +46,7 @@ mod balance;
 mod channels;
 mod check;
 mod defaults;
+pub mod explain;
 mod failure;
 mod friction_detail;
 mod journal;

@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 
-/// A table with a line of heads; the first `names` columns are aligned left, the numbers after them
+/// A table with a line of heads, unless all are empty; the first `names` columns are aligned left, the numbers after them
 /// right.
 pub(crate) fn text_table<const N: usize>(
     heads: [&str; N],
@@ -10,7 +10,10 @@ pub(crate) fn text_table<const N: usize>(
     rows: impl IntoIterator<Item = [String; N]>,
 ) -> String {
     let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_header(heads);
+    table.load_style(presets::NOTHING);
+    if heads.iter().any(|head| !head.is_empty()) {
+        table.set_header(heads);
+    }
     for row in rows {
         table.add_row(row);
     }
@@ -37,5 +40,7 @@ mod tests {
             table,
             "           force\nä            1.5\nlong name    -20\n"
         );
+        let facts = text_table(["", ""], 2, [["a", "b"]].map(|row| row.map(str::to_owned)));
+        assert_eq!(facts, "a  b\n");
     }
 }
