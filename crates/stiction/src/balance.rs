@@ -77,7 +77,8 @@ impl EnergyBalance {
 
 impl std::fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let number = |value: f64| format!("{value:.6e}");
+        // Adding zero makes the zero plain that a sum of nothing leaves negative.
+        let number = |value: f64| format!("{:.6e}", value + 0.0);
         let term = |name: &str, term: &EnergyTerm| {
             [
                 name.to_owned(),
