@@ -50,8 +50,9 @@ pub struct EnergyBalance {
     pub motions: f64,
     /// What friction dissipated: the work that it took out less what has been stored since.
     pub dissipated: f64,
-    /// The energy exchanged: the largest magnitude, at any output, that a change of the kinetic or
-    /// potential energy, the work of forces, of motions or of friction reached since the start.
+    /// The energy exchanged: the largest of the totals, over the outputs, of the magnitudes by which
+    /// the kinetic energy, the potential energy, and the works of forces, of motions and of friction
+    /// changed from one output to the next. It grows with the length of a run, as does the error.
     pub exchanged: f64,
 }
 
@@ -118,8 +119,9 @@ type Sums = [f64; 5];
 pub(crate) struct EnergyAccount {
     unit: String,
     balance: Option<EnergyBalance>,
-    /// Sums of the changes so far.
+    /// Sums of the changes so far, and of their magnitudes.
     changes: Sums,
+    exchanged: Sums,
     /// Values at the last output of the dynamic simulation that goes on.
     last: Option<Sums>,
     /// Stored energy and work of each friction there.
@@ -133,6 +135,7 @@ impl EnergyAccount {
             unit: units.energy(),
             balance: None,
             changes: [0.0; 5],
+            exchanged: [0.0; 5],
             last: None,
             last_frictions: vec![[0.0; 2]; frictions],
             dissipated: vec![0.0; frictions],
@@ -181,8 +184,9 @@ impl EnergyAccount {
         let sums = self.take(wrenches);
         let stored = self.stored();
         self.last = Some(sums);
-        for ((sum, now), last) in self.changes.iter_mut().zip(sums).zip(last) {
-            *sum += now - last;
+        for k in 0..sums.len() {
+            self.changes[k] += sums[k] - last[k];
+            self.exchanged[k] += (sums[k] - last[k]).abs();
         }
         let frictions = before.iter().zip(&self.last_frictions);
         for (dissipated, (before, now)) in self.dissipated.iter_mut().zip(frictions) {
@@ -198,9 +202,7 @@ impl EnergyAccount {
         balance.stored.change += stored - stored_before;
         (balance.forces, balance.motions) = (forces, motions);
         balance.dissipated = total(self.dissipated.iter());
-        for change in self.changes {
-            balance.exchanged = balance.exchanged.max(change.abs());
-        }
+        balance.exchanged = self.exchanged.into_iter().fold(0.0, f64::max);
     }
 
     /// Energies and works of an instant; keeps those of the frictions.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use results::ResFile;
 use stiction::{Outcome, Progress, Project, RunOptions, RunReport, Session, Watch};
 
-struct GoOn;
+/// Does not stop a run.
+pub(crate) struct GoOn;
 
 impl Watch for GoOn {
     fn progress(&mut self, _: &Progress) -> bool {
