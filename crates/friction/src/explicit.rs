@@ -39,8 +39,9 @@
 //! of Do, Ferri and Bauchau (2007).
 
 use crate::joint::{CylindricalLoad, RevoluteLoad, SphericalLoad, TranslationalLoad};
-use crate::lugre::{Bristles, LuGre};
-use crate::original::{Coefficient, Original};
+use crate::law::{ForceAndTorque, Law};
+use crate::lugre::Bristles;
+use crate::original::Coefficient;
 use crate::resultant::{
     Resultant, bristle_resultant, cylindrical_bristle_resultant, cylindrical_resultant, resultant,
 };
@@ -48,24 +49,6 @@ use crate::resultant::{
 /// Level, as a force, that bristles without load count with: it keeps the law defined and is
 /// beneath notice.
 const LEAST_LEVEL: f64 = 1e-12;
-
-/// A friction law (`FORMULATION`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
-    /// `ORIGINAL`.
-    Original(Original),
-    /// `LUGRE`.
-    LuGre(LuGre),
-}
-
-/// A preload or a limit; a joint uses the ones that the statement has for it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForceAndTorque {
-    /// `FRICTION_FORCE_PRELOAD` or `MAX_FRICTION_FORCE` (translational, cylindrical), force.
-    pub force: f64,
-    /// `FRICTION_TORQUE_PRELOAD` or `MAX_FRICTION_TORQUE` (all but translational), torque.
-    pub torque: f64,
-}
 
 /// Friction of one joint, carried from step to step. `L` is the joint's load, `N` the number of
 /// freedoms of its surfaces.
@@ -164,7 +147,8 @@ impl TranslationalStepper {
     /// in J axes, friction excluded. [`Resultant::by_velocity`] is force by velocity.
     ///
     /// ```
-    /// use friction::explicit::{Law, TranslationalStepper};
+    /// use friction::Law;
+    /// use friction::explicit::TranslationalStepper;
     /// use friction::{Inputs, LuGre, TranslationalLoad};
     /// let law = LuGre {
     ///     mu_static: 0.3, mu_dynamic: 0.2, bristle_stiffness: 1e5, damping: 300.0, viscous: 0.0,
@@ -214,7 +198,8 @@ impl RevoluteStepper {
     /// is torque by rate.
     ///
     /// ```
-    /// use friction::explicit::{Law, RevoluteStepper};
+    /// use friction::Law;
+    /// use friction::explicit::RevoluteStepper;
     /// use friction::{Effect, Inputs, Original, RevoluteLoad};
     /// let law = Original {
     ///     mu_static: 0.3, mu_dynamic: 0.2, transition_velocity: 1e-3,
@@ -252,7 +237,8 @@ impl CylindricalStepper {
     /// [`Resultant::by_velocity`] has columns for the velocity and for `Rp` times the rate.
     ///
     /// ```
-    /// use friction::explicit::{CylindricalStepper, Law};
+    /// use friction::Law;
+    /// use friction::explicit::CylindricalStepper;
     /// use friction::{CylindricalLoad, Effect, Inputs, Original};
     /// let law = Original {
     ///     mu_static: 0.2, mu_dynamic: 0.2, transition_velocity: 1e-3,
@@ -303,7 +289,8 @@ impl SphericalStepper {
     /// reaction on I in any axes. [`Resultant::by_velocity`] is torque by surface velocity.
     ///
     /// ```
-    /// use friction::explicit::{Law, SphericalStepper};
+    /// use friction::Law;
+    /// use friction::explicit::SphericalStepper;
     /// use friction::{Effect, Inputs, Original, SphericalLoad};
     /// let law = Original {
     ///     mu_static: 0.1, mu_dynamic: 0.1, transition_velocity: 1e-3,

@@ -49,6 +49,7 @@ struct Readme;
 
 pub mod explicit;
 pub mod joint;
+pub mod law;
 pub mod lugre;
 pub mod original;
 pub mod parameters;
@@ -57,6 +58,7 @@ pub mod step;
 mod vector;
 
 pub use joint::{CylindricalLoad, Inputs, Load, RevoluteLoad, SphericalLoad, TranslationalLoad};
+pub use law::{ForceAndTorque, Law};
 pub use lugre::{Bristles, LuGre};
 pub use original::{Coefficient, Effect, Original, Regime};
 pub use resultant::{

@@ -188,11 +188,12 @@ impl Original {
         }
     }
 
-    /// Energy that the creep of length `d` stores at the surface speed `v`, by unit of load (length):
-    /// `(1 - beta) mu_s Dm` times the integral of `psi` from 0 to `d/Dm`.
+    /// Energy stored in a creep of length `d` by unit of load (length): `mu_s Dm` times the integral of
+    /// `psi` from 0 to `d/Dm`.
     ///
     /// It is what the elastic part of the friction gives back when the creep is taken out slowly at
-    /// constant load. Zero when not stuck.
+    /// constant load; with it the friction of a stuck joint is passive at constant load, also in
+    /// motion. It is lost where the creep is erased.
     ///
     /// ```
     /// # use friction::{Effect, Original};
@@ -200,13 +201,9 @@ impl Original {
     /// #     mu_static: 0.3, mu_dynamic: 0.2, transition_velocity: 0.1,
     /// #     transition_coefficient: 1.5, max_deformation: 0.01, effect: Effect::All,
     /// # };
-    /// assert!((law.creep_energy(0.0, 0.01) - 0.3 * 0.01 * 0.6875).abs() < 1e-18);
-    /// assert_eq!(law.creep_energy(0.1, 0.01), 0.0);
+    /// assert!((law.creep_energy(0.01) - 0.3 * 0.01 * 0.6875).abs() < 1e-18);
     /// ```
-    pub fn creep_energy(&self, speed: f64, creep: f64) -> f64 {
-        if self.regime(speed) != Regime::Stuck {
-            return 0.0;
-        }
+    pub fn creep_energy(&self, creep: f64) -> f64 {
         let s = creep / self.max_deformation;
         let integral = if s < 1.0 {
             let square = s * s;
@@ -214,8 +211,7 @@ impl Original {
         } else {
             s - 0.3125
         };
-        let blend = odd_step(speed / self.transition_velocity).complement;
-        blend * self.mu_static * self.max_deformation * integral
+        self.mu_static * self.max_deformation * integral
     }
 
     /// Magnitude that multiplies the direction, and its derivative by the speed.

@@ -5,7 +5,8 @@
 mod pendulum;
 mod shared;
 
-use friction::explicit::{Law, RevoluteStepper, SphericalStepper, TranslationalStepper};
+use friction::Law;
+use friction::explicit::{RevoluteStepper, SphericalStepper, TranslationalStepper};
 use friction::{Effect, Inputs, LuGre, Original, RevoluteLoad, SphericalLoad, TranslationalLoad};
 use pendulum::{GRAVITY, Pendulum};
 use shared::{canudas, of_the_law};

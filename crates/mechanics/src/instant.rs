@@ -76,7 +76,6 @@ impl Instant {
     ) -> Result<(), Failure> {
         self.guess.copy_from_slice(multipliers);
         system.set_statics(false);
-        system.set_bristles(&state.values[state.bristle_range()], 0.0);
         system.evaluate(state, false);
         let n = system.velocity_count();
         let mut last = f64::INFINITY;
@@ -176,7 +175,6 @@ impl Instant {
         length: f64,
     ) -> Result<(), Failure> {
         let n = system.velocity_count();
-        system.set_bristles(&state.values[state.bristle_range()], 0.0);
         system.evaluate(state, false);
         self.factor(system, multipliers)?;
         // One matrix serves: the corrections are of the size of the integration error.

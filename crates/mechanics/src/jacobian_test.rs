@@ -146,10 +146,16 @@ fn model(law: &Law) -> Model {
         ForceKind::AlongZ,
         ForceKind::AboutZ,
         ForceKind::AboutZActionOnly,
+        // Their axes are on the third body of the force, on ground, on J and on I (below).
+        ForceKind::AlongAxis { frame: 2, axis: 0 },
+        ForceKind::AboutAxis { frame: 2, axis: 1 },
+        ForceKind::AlongAxis { frame: 3, axis: 1 },
+        ForceKind::AlongAxis { frame: 1, axis: 2 },
+        ForceKind::AboutAxis { frame: 0, axis: 2 },
     ];
     for (place, kind) in kinds.into_iter().enumerate() {
         let on = [
-            Some(place),
+            Some(place % bodies),
             if place == 1 {
                 None
             } else {
@@ -158,6 +164,18 @@ fn model(law: &Law) -> Model {
         ];
         let [i, j] = on.map(|body| marker(&mut model, body));
         let k = marker(&mut model, Some((place + 3) % bodies));
+        let ground = marker(&mut model, None);
+        let kind = match kind {
+            ForceKind::AlongAxis { frame, axis } => {
+                let frame = [i, j, k, ground][frame];
+                ForceKind::AlongAxis { frame, axis }
+            }
+            ForceKind::AboutAxis { frame, axis } => {
+                let frame = [i, j, k, ground][frame];
+                ForceKind::AboutAxis { frame, axis }
+            }
+            kind => kind,
+        };
         let measures = model.measures.len();
         for quantity in [Quantity::Displacement(1), Quantity::Velocity(0)] {
             model.measures.push(Measure {

@@ -12,6 +12,7 @@ pub use crate::equation::Pin;
 use crate::expression::Program;
 use crate::measure::Measure;
 use crate::rotation::Quaternion;
+pub use friction::{ForceAndTorque, Law};
 
 /// How an element is called in messages: its statement, id and name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -197,6 +198,29 @@ pub enum ForceKind {
     AboutZ,
     /// Torque about z of J on I only.
     AboutZActionOnly,
+    /// Force along an axis (0, 1, 2) of the marker `frame` on I at its origin, the opposite on the
+    /// body of J at the same point.
+    AlongAxis {
+        /// Marker whose axes give the direction; it may be on any body.
+        frame: usize,
+        /// Which axis.
+        axis: usize,
+    },
+    /// Torque about an axis (0, 1, 2) of the marker `frame` on I, the opposite on the body of J.
+    AboutAxis {
+        /// Marker whose axes give the direction; it may be on any body.
+        frame: usize,
+        /// Which axis.
+        axis: usize,
+    },
+}
+
+impl ForceKind {
+    /// Whether the opposite acts on J.
+    #[must_use]
+    pub fn acts_on_both(self) -> bool {
+        !matches!(self, Self::AlongZ | Self::AboutZActionOnly)
+    }
 }
 
 /// A force or torque with one component given by a function.
@@ -212,6 +236,24 @@ pub struct SingleForce {
     pub kind: ForceKind,
     /// Its value: a function of time, displacements and velocities.
     pub function: Program,
+}
+
+impl SingleForce {
+    /// The marker whose axes give its direction: `frame` of its kind, else J.
+    #[must_use]
+    pub fn frame(&self) -> usize {
+        match self.kind {
+            ForceKind::AlongAxis { frame, .. } | ForceKind::AboutAxis { frame, .. } => frame,
+            _ => self.j,
+        }
+    }
+
+    /// Whether J floats, that is stands where I stands: so it does for a component along the axes of
+    /// another marker than J.
+    #[must_use]
+    pub fn j_floats(&self) -> bool {
+        self.frame() != self.j
+    }
 }
 
 /// Which joint geometry turns a reaction into a friction load.
@@ -254,67 +296,6 @@ impl FrictionJoint {
             Self::Translational(_) | Self::Revolute(_) | Self::Pin(..) => 1,
             Self::Cylindrical(_) => 2,
             Self::Spherical(_) => 3,
-        }
-    }
-}
-
-/// The law of a friction: its FORMULATION.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
-    /// Stick-slip.
-    Original(friction::Original),
-    /// Bristles.
-    LuGre(friction::LuGre),
-}
-
-impl Law {
-    /// Regime at the speed of the sliding surfaces.
-    #[must_use]
-    pub fn regime(&self, speed: f64) -> friction::Regime {
-        match self {
-            Self::Original(law) => law.regime(speed),
-            Self::LuGre(law) => law.regime(speed),
-        }
-    }
-
-    /// The larger of its two coefficients.
-    #[must_use]
-    pub fn largest_coefficient(&self) -> f64 {
-        match self {
-            Self::Original(law) => law.mu_static.max(law.mu_dynamic),
-            Self::LuGre(law) => law.mu_static.max(law.mu_dynamic),
-        }
-    }
-}
-
-impl From<friction::Original> for Law {
-    fn from(law: friction::Original) -> Self {
-        Self::Original(law)
-    }
-}
-
-impl From<friction::LuGre> for Law {
-    fn from(law: friction::LuGre) -> Self {
-        Self::LuGre(law)
-    }
-}
-
-/// A number for the friction force and one for the friction torque of a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForceAndTorque {
-    /// Force: translational and cylindrical joints.
-    pub force: f64,
-    /// Torque: all but translational joints.
-    pub torque: f64,
-}
-
-impl ForceAndTorque {
-    /// The same number for both.
-    #[must_use]
-    pub const fn both(value: f64) -> Self {
-        Self {
-            force: value,
-            torque: value,
         }
     }
 }

@@ -105,6 +105,9 @@ pub struct Simulation {
     multipliers: Vec<f64>,
     scales: Scales,
     statistics: Statistics,
+    /// What the formula said of the bristles at the present instant, see [`Simulation::take`].
+    bristle_past: Vec<f64>,
+    bristle_gamma: f64,
     /// Storage and matrix patterns, kept between runs of the same equations.
     engine: Option<Engine>,
 }
@@ -146,6 +149,8 @@ impl Simulation {
         let mut state = system.given_state(0.0);
         state.extend(system.bristle_count(), system.work_count());
         Self {
+            bristle_past: vec![0.0; system.bristle_count()],
+            bristle_gamma: 0.0,
             state,
             accelerations: vec![0.0; system.velocity_count()],
             multipliers: Vec::new(),
@@ -173,6 +178,8 @@ impl Simulation {
     /// [`RunError`] where they have no unique solution.
     pub fn solve_instant(&mut self) -> Result<(), RunError> {
         let mut instant = Instant::new(&self.system);
+        self.system
+            .set_bristles(&self.bristle_past, self.bristle_gamma);
         let solved = instant.accelerations(
             &mut self.system,
             &self.state,
@@ -200,6 +207,7 @@ impl Simulation {
         let reactions = self.multipliers.clone();
         self.state.time = time;
         self.state.velocities_mut().fill(0.0);
+        self.freeze_bristles();
         self.system.evaluate(&self.state, false);
         self.system.stick_all();
         // Reactions to start from: without them no joint has a load, and no friction holds. Where
@@ -277,6 +285,7 @@ impl Simulation {
         self.state = state;
         let (bristles, works) = (self.system.bristle_count(), self.system.work_count());
         self.state.extend(bristles, works);
+        self.freeze_bristles();
         self.system.evaluate(&self.state, false);
         self.system.start_history();
         for (memory, creep) in self.system.history.frictions.iter_mut().zip(creep) {
@@ -319,10 +328,28 @@ impl Simulation {
         )
     }
 
+    /// A failure in mechanical words, with bristles that may be behind it.
+    fn explain(&self, failure: &Failure) -> String {
+        let mut text = self.system.explain(failure);
+        let unsound = matches!(failure, Failure::NotConverged { .. } | Failure::Singular(_));
+        let memories = self.system.history.frictions.iter();
+        let active = memories.zip(&self.system.model().frictions);
+        for (memory, friction) in active {
+            if let (true, Some(time)) = (unsound, memory.tally.not_passive) {
+                text.push_str(&format!(
+                    "; {} has been faster than its bristles are passive for since time {time}: a \
+                     smaller DAMPING_COEFFICIENT may help",
+                    friction.label
+                ));
+            }
+        }
+        text
+    }
+
     fn error(&self, failure: &Failure) -> RunError {
         RunError {
             time: self.state.time,
-            message: self.system.explain(failure),
+            message: self.explain(failure),
             element: self.system.element_of(failure).cloned(),
         }
     }
@@ -474,6 +501,8 @@ impl Simulation {
 
     /// Brings the state onto the constraints and solves its accelerations and reactions.
     fn settle(&mut self, instant: &mut Instant) -> Result<(), RunError> {
+        self.system
+            .set_bristles(&self.bristle_past, self.bristle_gamma);
         let solved = instant
             .project(
                 &mut self.system,
@@ -490,6 +519,15 @@ impl Simulation {
                 )
             });
         solved.map_err(|failure| self.unsolved(&failure, instant))
+    }
+
+    /// The bristles keep their deflection at the present instant.
+    fn freeze_bristles(&mut self) {
+        let range = self.state.bristle_range();
+        self.bristle_past.copy_from_slice(&self.state.values[range]);
+        self.bristle_gamma = 0.0;
+        self.system
+            .set_bristles(&self.bristle_past, self.bristle_gamma);
     }
 
     /// An instant that could not be solved: a jam where that explains it, with the reactions as the
@@ -515,6 +553,9 @@ impl Simulation {
     ) -> Result<(), RunError> {
         bdf.interpolate(time, &mut self.state.values);
         self.state.time = time;
+        self.relax_bristles(bdf, time);
+        // The reactions of the step are near: bristles may know several solutions.
+        self.multipliers.copy_from_slice(&dynamics.multipliers);
         for body in 0..self.state.bodies() {
             let place = POSITIONS * body + 3;
             let q = self.state.orientation(body).normalized();
@@ -534,7 +575,27 @@ impl Simulation {
                 *memory = *previous;
             }
         }
-        self.settle(instant)
+        self.settle(instant)?;
+        let range = self.state.bristle_range();
+        let deflections = &mut self.state.values[range];
+        self.system
+            .write_bristles(&self.multipliers, Some(deflections), None);
+        Ok(())
+    }
+
+    /// Takes the formula of the last step for the bristles at `time` within it.
+    ///
+    /// Given the deflection, a small change of the load changes its rate by much, and the damping
+    /// of the bristles makes a force of that: reactions at an instant need not have a solution
+    /// where those of a step have one. So the deflection may follow the reactions at an output by
+    /// as much as it does in a step: `z = past + γ z'` through the interpolated `z` and `z'`.
+    fn relax_bristles(&mut self, bdf: &Bdf, time: f64) {
+        let range = self.state.bristle_range();
+        self.bristle_gamma = bdf.last_gamma();
+        bdf.interpolate_slope(time, range.clone(), &mut self.bristle_past);
+        for (past, deflection) in self.bristle_past.iter_mut().zip(&self.state.values[range]) {
+            *past = deflection - self.bristle_gamma * *past;
+        }
     }
 
     /// A first step whose error by the formula of order one is half the tolerance, from the second
@@ -571,9 +632,6 @@ impl Simulation {
         later.state.time += ahead;
         let step: Vec<f64> = self.state.velocities().iter().map(|u| u * ahead).collect();
         later.state.displace(&step);
-        for place in later.state.bristle_range() {
-            later.state.values[place] += ahead * slope[place];
-        }
         let velocities = later.state.velocities_mut().iter_mut();
         for (u, a) in velocities.zip(&self.accelerations) {
             *u += ahead * a;
@@ -625,7 +683,7 @@ impl Simulation {
                 time: *time,
                 message: format!(
                     "the step could not be solved with the shortest step allowed: {}",
-                    self.system.explain(cause)
+                    self.explain(cause)
                 ),
                 element: self.system.element_of(cause).cloned(),
             },

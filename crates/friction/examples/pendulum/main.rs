@@ -6,7 +6,8 @@
 
 mod pendulum;
 
-use friction::explicit::{Law, RevoluteStepper};
+use friction::Law;
+use friction::explicit::RevoluteStepper;
 use friction::{Effect, Inputs, LuGre, Original, RevoluteLoad};
 use pendulum::Pendulum;
 

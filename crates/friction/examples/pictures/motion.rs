@@ -1,6 +1,7 @@
 //! Motions of one mass, stepped as a hand-written simulator would.
 
-use friction::explicit::{Law, TranslationalStepper};
+use friction::Law;
+use friction::explicit::TranslationalStepper;
 use friction::{Effect, Inputs, LuGre, Original, TranslationalLoad};
 
 const GRAVITY: f64 = 9.81;

@@ -1,13 +1,13 @@
 //! Random joints with random states, and their friction through the stepper.
 
 use friction::explicit::{
-    CylindricalStepper, ForceAndTorque, Law, RevoluteStepper, SphericalStepper,
-    TranslationalStepper,
+    CylindricalStepper, RevoluteStepper, SphericalStepper, TranslationalStepper,
 };
 use friction::{
     CylindricalLoad, Effect, Inputs, LuGre, Original, Resultant, RevoluteLoad, SphericalLoad,
     TranslationalLoad,
 };
+use friction::{ForceAndTorque, Law};
 use proptest::prelude::*;
 
 /// The joints of the statement; the pins of a hooke joint are `x_I` and `y_J`, those of a universal

@@ -3,9 +3,9 @@
 
 mod joint;
 
-use friction::explicit::{ForceAndTorque, Law};
 use friction::step::odd_step;
 use friction::{Effect, LuGre, Original};
+use friction::{ForceAndTorque, Law};
 use joint::{Answer, Joint, Kind, joint, lugre, original};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -48,7 +48,10 @@ pub(super) fn respond<const N: usize>(
         Law::Original(law) => {
             let c = law.evaluate(velocity, creep);
             let resultant = joining.original(&c);
-            let energy = law.creep_energy(norm(velocity), norm(creep));
+            let energy = match c.regime {
+                Regime::Stuck => law.creep_energy(norm(creep)),
+                Regime::Transition | Regime::Sliding => 0.0,
+            };
             Response {
                 mu: c.mu,
                 mu1: c.mu1,

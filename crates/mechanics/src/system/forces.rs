@@ -4,11 +4,10 @@ use nalgebra::Vector3;
 
 use super::System;
 use super::evaluation::read;
-use super::single_force::direction;
+use super::single_force::{Frames, direction};
 use crate::equation::Local;
 use crate::expression::Program;
 use crate::model::{Element, SingleForce};
-use crate::state::MarkerFrame;
 
 impl System {
     /// `M w` in ground axes: mass and inertia times six numbers a body.
@@ -48,10 +47,10 @@ impl System {
             if !self.model.is_active(Element::Force(place)) {
                 continue;
             }
-            let (i, j) = self.force_markers(place);
+            let frames = self.force_frames(&self.model.forces[place]);
             let value = self.force_value(place);
-            let direction = direction(self.model.forces[place].kind, &i, &j);
-            self.add_local(&[i.body, j.body], &(value * direction), out);
+            let direction = direction(self.model.forces[place].kind, &frames);
+            self.add_local(&frames.sides(), &(value * direction), out);
         }
         for place in 0..self.model.frictions.len() {
             if !self.friction_acts(place) {
@@ -77,9 +76,12 @@ impl System {
         }
     }
 
-    pub(super) fn force_markers(&self, place: usize) -> (MarkerFrame, MarkerFrame) {
-        let force = &self.model.forces[place];
-        (self.marker(force.i), self.marker(force.j))
+    pub(super) fn force_frames(&self, force: &SingleForce) -> Frames {
+        Frames {
+            i: self.marker(force.i),
+            j: self.marker(force.j),
+            frame: self.marker(force.frame()),
+        }
     }
 
     /// Value of a single-component force at the state evaluated last.
@@ -91,6 +93,6 @@ impl System {
 
     /// Generalised force of a single-component force of one unit, for outputs.
     pub(crate) fn force_direction(&self, force: &SingleForce) -> Local {
-        direction(force.kind, &self.marker(force.i), &self.marker(force.j))
+        direction(force.kind, &self.force_frames(force))
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use numerics::linear::Matrix;
 
-use super::single_force::{direction, direction_stiffness};
+use super::single_force::{ByRotation, direction, direction_by_frame, direction_stiffness};
 use super::{Rows, System};
 use crate::constraint::Form;
 use crate::equation::{Local, LocalMatrix};
@@ -138,13 +138,19 @@ impl System {
             if !self.model.is_active(Element::Force(place)) {
                 continue;
             }
-            let (i, j) = self.force_markers(place);
+            let frames = self.force_frames(&self.model.forces[place]);
             let value = self.force_value(place);
             let force = &self.model.forces[place];
-            let direction = direction(force.kind, &i, &j);
-            let turning = direction_stiffness(force.kind, &i, &j);
-            let sides = [i.body, j.body];
-            self.add_local_matrix(&sides, &turning, -weights.position * value, matrix);
+            let direction = direction(force.kind, &frames);
+            let turning = direction_stiffness(force.kind, &frames);
+            let sides = frames.sides();
+            let scale = -weights.position * value;
+            self.add_local_matrix(&sides, &turning, scale, matrix);
+            if let (Some(change), Some(carrier)) =
+                (direction_by_frame(force.kind, &frames), frames.frame.body)
+            {
+                self.add_by_rotation(&sides, carrier, &change, scale, matrix);
+            }
             force
                 .function
                 .gradient(&self.registers, &mut self.adjoints, |input, slope| {
@@ -201,6 +207,32 @@ impl System {
                     for r in 0..6 {
                         matrix.add(6 * body + r, n + row, -by_multiplier[6 * side + r]);
                     }
+                }
+            }
+        }
+    }
+
+    /// Adds the change of a generalised force with the rotation of the body `carrier`.
+    fn add_by_rotation(
+        &self,
+        sides: &[Option<usize>; 2],
+        carrier: usize,
+        change: &ByRotation,
+        scale: f64,
+        matrix: &mut Matrix,
+    ) {
+        let turns = |body: usize| self.model.bodies[body].rotates;
+        for (side, body) in sides.iter().enumerate() {
+            let Some(body) = *body else { continue };
+            for r in 0..6 {
+                for c in 0..3 {
+                    let free = turns(carrier) && (r < 3 || turns(body));
+                    let value = if free {
+                        scale * change[(6 * side + r, c)]
+                    } else {
+                        0.0
+                    };
+                    matrix.add(6 * body + r, 6 * carrier + 3 + c, value);
                 }
             }
         }

@@ -1,15 +1,39 @@
 //! How a single-component force of one unit acts on its two bodies.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::equation::{Local, LocalMatrix};
 use crate::model::ForceKind;
 use crate::rotation::skew;
 use crate::state::MarkerFrame;
 
+/// Frames of marker I, of marker J, and of the marker whose axes give the direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frames {
+    pub(super) i: MarkerFrame,
+    pub(super) j: MarkerFrame,
+    pub(super) frame: MarkerFrame,
+}
+
+impl Frames {
+    /// The bodies of I and J.
+    pub(super) fn sides(&self) -> [Option<usize>; 2] {
+        [self.i.body, self.j.body]
+    }
+
+    /// From the centre of mass of J's body to the origin of I.
+    fn reach(&self) -> Vector3<f64> {
+        self.j.arm + self.i.origin - self.j.origin
+    }
+}
+
+/// Change of a generalised force by the rotation (ground axes) of one body.
+pub(super) type ByRotation = SMatrix<f64, 12, 3>;
+
 /// Generalised force of one unit of a single-component force.
-pub(super) fn direction(kind: ForceKind, i: &MarkerFrame, j: &MarkerFrame) -> Local {
+pub(super) fn direction(kind: ForceKind, frames: &Frames) -> Local {
     let mut local = Local::zeros();
+    let Frames { i, j, frame } = frames;
     match kind {
         ForceKind::LineOfSight => {
             let d = i.origin - j.origin;
@@ -33,17 +57,28 @@ pub(super) fn direction(kind: ForceKind, i: &MarkerFrame, j: &MarkerFrame) -> Lo
         ForceKind::AboutZActionOnly => {
             local.fixed_rows_mut::<3>(3).copy_from(&j.axis(2));
         }
+        ForceKind::AlongAxis { axis, .. } => {
+            let a = frame.axis(axis);
+            local.fixed_rows_mut::<3>(0).copy_from(&a);
+            local.fixed_rows_mut::<3>(3).copy_from(&i.arm.cross(&a));
+            local.fixed_rows_mut::<3>(6).copy_from(&-a);
+            let moment = frames.reach().cross(&a);
+            local.fixed_rows_mut::<3>(9).copy_from(&-moment);
+        }
+        ForceKind::AboutAxis { axis, .. } => {
+            let a = frame.axis(axis);
+            local.fixed_rows_mut::<3>(3).copy_from(&a);
+            local.fixed_rows_mut::<3>(9).copy_from(&-a);
+        }
     }
     local
 }
 
-/// Change of [`direction`] with the local motions.
-pub(super) fn direction_stiffness(
-    kind: ForceKind,
-    i: &MarkerFrame,
-    j: &MarkerFrame,
-) -> LocalMatrix {
+/// Change of [`direction`] with the local motions of the bodies of I and J; that of an axis of
+/// another marker is [`direction_by_frame`].
+pub(super) fn direction_stiffness(kind: ForceKind, frames: &Frames) -> LocalMatrix {
     let mut matrix = LocalMatrix::zeros();
+    let Frames { i, j, .. } = frames;
     let mut put = |row: usize, column: usize, block: Matrix3<f64>| {
         let mut view = matrix.fixed_view_mut::<3, 3>(row, column);
         view += block;
@@ -82,6 +117,45 @@ pub(super) fn direction_stiffness(
             put(9, 9, z);
         }
         ForceKind::AboutZActionOnly => put(3, 9, -z),
+        ForceKind::AlongAxis { axis, .. } => {
+            // δ(ρ × a) = a× ρ× δθ_I, and with c = o_I − r_J: −δ(c × a) = a× (δr_I − ρ× δθ_I − δr_J)
+            let (rho, a) = (skew(&i.arm), skew(&frames.frame.axis(axis)));
+            put(3, 3, a * rho);
+            put(9, 0, a);
+            put(9, 3, -a * rho);
+            put(9, 6, -a);
+        }
+        // Only its axis changes.
+        ForceKind::AboutAxis { .. } => {}
     }
     matrix
+}
+
+/// Change of [`direction`] with the rotation of the body that carries the axis of a component;
+/// `None` for the kinds whose direction [`direction_stiffness`] knows completely.
+pub(super) fn direction_by_frame(kind: ForceKind, frames: &Frames) -> Option<ByRotation> {
+    let mut change = ByRotation::zeros();
+    let mut put = |row: usize, block: Matrix3<f64>| {
+        change.fixed_view_mut::<3, 3>(row, 0).copy_from(&block);
+    };
+    // δa = −a× δθ
+    match kind {
+        ForceKind::AlongAxis { axis, .. } => {
+            let a = skew(&frames.frame.axis(axis));
+            put(0, -a);
+            put(3, -skew(&frames.i.arm) * a);
+            put(6, a);
+            put(9, skew(&frames.reach()) * a);
+        }
+        ForceKind::AboutAxis { axis, .. } => {
+            let a = skew(&frames.frame.axis(axis));
+            put(3, -a);
+            put(9, a);
+        }
+        ForceKind::LineOfSight
+        | ForceKind::AlongZ
+        | ForceKind::AboutZ
+        | ForceKind::AboutZActionOnly => return None,
+    }
+    Some(change)
 }

@@ -24,9 +24,10 @@ impl System {
             if !self.model.is_active(Element::Force(place)) {
                 continue;
             }
-            let (i, j) = self.force_markers(place);
-            let direction = direction(self.model.forces[place].kind, &i, &j);
-            forces += self.force_value(place) * direction.dot(&local_velocities(&i, &j));
+            let frames = self.force_frames(&self.model.forces[place]);
+            let direction = direction(self.model.forces[place].kind, &frames);
+            let velocities = local_velocities(&frames.i, &frames.j);
+            forces += self.force_value(place) * direction.dot(&velocities);
         }
         powers[frictions] = forces;
         let mut motions = 0.0;

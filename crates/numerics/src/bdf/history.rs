@@ -1,5 +1,7 @@
 //! The past of a solution as divided differences.
 
+use std::ops::Range;
+
 /// Highest order of the backward differentiation formulas in use; beyond 5 they are hardly stable.
 pub(super) const HIGHEST_ORDER: usize = 5;
 /// Nodes kept: order + 2, so that the error of the next higher order can be estimated.
@@ -119,6 +121,22 @@ impl History {
         }
     }
 
+    /// Slope at `time` of the polynomial through the newest `degree + 1` nodes, of the values in
+    /// `range`.
+    pub fn slope(&self, degree: usize, time: f64, range: Range<usize>, slope: &mut [f64]) {
+        slope.fill(0.0);
+        // Newton's form differentiated: the slope of each product beside it.
+        let (mut product, mut rate) = (1.0, 0.0);
+        for j in 0..=degree {
+            for (s, d) in slope.iter_mut().zip(&self.difference(j)[range.clone()]) {
+                *s += rate * d;
+            }
+            let span = time - self.times[j];
+            rate = rate * span + product;
+            product *= span;
+        }
+    }
+
     /// The formula's `ŷ = w − γ ẇ` at `time`, with `w` through the newest `order` nodes.
     pub fn formula(&self, order: usize, time: f64, gamma: f64, result: &mut [f64]) {
         // Newton's form of w and its slope share the products; both are linear in the differences.
@@ -154,6 +172,9 @@ mod tests {
         let mut value = [0.0];
         history.evaluate(3, t, &mut value);
         assert!((value[0] - f(t)).abs() < 1e-13);
+        let mut rate = [0.0];
+        history.slope(3, t, 0..1, &mut rate);
+        assert!((rate[0] - slope(t)).abs() < 1e-12);
         // Order 3 through the new value and three past ones is exact for cubics.
         let gamma = history.gamma(3, t);
         let mut past = [0.0];

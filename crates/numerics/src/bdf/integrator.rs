@@ -1,5 +1,7 @@
 //! Step and order control.
 
+use std::ops::Range;
+
 use super::history::HIGHEST_ORDER;
 use super::{History, Step, System};
 
@@ -81,6 +83,7 @@ pub struct Bdf {
     starting: bool,
     steps_at_order: usize,
     last_size: f64,
+    last_gamma: f64,
     statistics: Statistics,
     formula: Vec<f64>,
     prediction: Vec<f64>,
@@ -108,6 +111,7 @@ impl Bdf {
             starting: true,
             steps_at_order: 0,
             last_size: 0.0,
+            last_gamma: 0.0,
             statistics: Statistics::default(),
             formula: vec![0.0; size],
             prediction: vec![0.0; size],
@@ -131,6 +135,7 @@ impl Bdf {
         self.starting = true;
         self.steps_at_order = 0;
         self.last_size = 0.0;
+        self.last_gamma = 0.0;
         self.statistics.starts += 1;
     }
 
@@ -168,6 +173,18 @@ impl Bdf {
     pub fn interpolate(&self, time: f64, value: &mut [f64]) {
         let degree = self.order.min(self.history.count() - 1);
         self.history.evaluate(degree, time, value);
+    }
+
+    /// Slope of that interpolation, of the values in `range`.
+    pub fn interpolate_slope(&self, time: f64, range: Range<usize>, slope: &mut [f64]) {
+        let degree = self.order.min(self.history.count() - 1);
+        self.history.slope(degree, time, range, slope);
+    }
+
+    /// Factor `γ` of the formula in the last accepted step; zero before the first.
+    #[must_use]
+    pub fn last_gamma(&self) -> f64 {
+        self.last_gamma
     }
 
     /// Takes one step, not beyond `stop`.
@@ -262,6 +279,7 @@ impl Bdf {
             self.history.push(time, &self.value);
             self.statistics.steps += 1;
             self.last_size = size;
+            self.last_gamma = gamma;
             self.choose(size, predictor, below, here, above);
             return Ok(());
         }
