@@ -440,3 +440,97 @@ END
         "{said}"
     );
 }
+
+#[test]
+fn explain_tells_where_the_friction_came_from() {
+    let folder = folder("explain", &[("p.adm", PENDULUM)]);
+    let arguments = ["run", "p.adm", "--end", "2", "--dtout", "0.01"];
+    assert_eq!(code(&stiction(&folder, &arguments)), 0);
+    let said = |arguments: &[&str]| {
+        let output = stiction(&folder, &[&["explain"], arguments].concat());
+        assert_eq!(code(&output), 0, "{arguments:?}: {}", errors(&output));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let overview = said(&["p-run"]);
+    assert_eq!(overview.lines().count(), 2, "{overview}");
+    assert!(overview.contains("FRICTION/103"), "{overview}");
+    let history = said(&["p-run", "--friction", "103"]);
+    for word in ["dissipated", "stuck from (sec)", "made by", "newton-meter"] {
+        assert!(history.contains(word), "{word}: {history}");
+    }
+    // The .res itself, and a time between two outputs.
+    let moment = said(&["p-run/p.res", "--friction", "103", "--at", "0.504"]);
+    for word in [
+        "at time 0.500000 sec",
+        "sliding",
+        "0.2000: the dynamic one",
+        "bending",
+    ] {
+        assert!(moment.contains(word), "{word}: {moment}");
+    }
+
+    let explained =
+        |arguments: &[&str]| json(said(&[arguments, &["--format", "json"]].concat()).as_bytes());
+    let all = explained(&["p-run"]);
+    assert_eq!(all.as_array().unwrap().len(), 1);
+    let one = explained(&["p-run", "--friction", "103"]);
+    assert_eq!(all[0], one);
+    assert_eq!(one["units"]["energy"], "newton-meter");
+    let shares: f64 = ["stuck", "transition", "sliding"]
+        .iter()
+        .map(|regime| one["regimes"][regime].as_f64().unwrap())
+        .sum();
+    assert!((shares - 1.0).abs() < 1e-12, "{shares}");
+    let moment = explained(&["p-run", "--friction", "103", "--at", "0.5"]);
+    // Sliding, the pin has the dynamic coefficient of its load, and none of it is a limit's.
+    let (load, torque) = (&moment["load"], &moment["torque"][2]);
+    let (load, torque) = (load.as_f64().unwrap(), torque.as_f64().unwrap());
+    assert!((torque.abs() - 0.2 * load).abs() < 1e-12, "{torque} {load}");
+    assert_eq!(
+        (&moment["regime"], &moment["limited"]),
+        (&"sliding".into(), &false.into())
+    );
+
+    // The record of the run has the same energies.
+    let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
+    assert_eq!(
+        record["frictions"][0]["dissipated"]["value"],
+        one["dissipated"]
+    );
+    assert_eq!(record["energy_balance"]["dissipated"], one["dissipated"]);
+    assert!(record["energy_balance"]["residual_share"].as_f64().unwrap() < 1e-4);
+    let message = std::fs::read_to_string(folder.join("p-run/p.msg")).unwrap();
+    assert!(
+        message.contains("Energy balance (newton-meter):"),
+        "{message}"
+    );
+
+    for (arguments, words) in [
+        (&["nowhere"][..], "cannot read nowhere"),
+        (&["."], "there is no .res in"),
+        (
+            &["p-run", "--friction", "7"],
+            "there is no FRICTION/7; there is FRICTION/103",
+        ),
+        (&["p-run", "--at", "3"], "goes from 0 to 2"),
+        (&["p.adm"], "p.adm"),
+    ] {
+        let output = stiction(&folder, &[&["explain"], arguments].concat());
+        assert_eq!(code(&output), 3, "{arguments:?}");
+        assert!(
+            errors(&output).contains(words),
+            "{arguments:?}: {}",
+            errors(&output)
+        );
+    }
+    assert_eq!(
+        code(&stiction(&folder, &["explain", "p-run", "--friction", "x"])),
+        2
+    );
+    let help = stiction(&folder, &["explain", "--help"]);
+    let help = String::from_utf8_lossy(&help.stdout).into_owned();
+    assert!(
+        help.contains("--friction") && help.contains("--at") && help.contains("130"),
+        "{help}"
+    );
+}

@@ -4,7 +4,8 @@
 #![allow(clippy::print_stdout, reason = "a skipped test says why")]
 
 use results::{
-    Component, DataKind, Entity, Header, Layout, MessageWriter, ResWriter, StepRow, UnitNames,
+    Component, DataKind, Entity, Header, Layout, MessageWriter, ResWriter, StepRow, SurfaceMotion,
+    UnitNames,
 };
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -49,6 +50,14 @@ fn write_results(path: &Path) {
         Component::new("ANGLE", "rad"),
     ];
     layout.push(Entity::request("DRIVE", 1, columns));
+    // An entity of a type that no other program knows.
+    layout.push(Entity::friction_detail(
+        "PIN_FRICTION",
+        4,
+        SurfaceMotion::Turning,
+        true,
+        &units,
+    ));
     let count = layout.value_count();
     let mut writer =
         ResWriter::new(File::create(path).unwrap(), &Header::default(), layout).unwrap();
@@ -98,6 +107,7 @@ names = xml.get_stepmap_dictionary(res)
 print(len(names), names["time.TIME"], names["PLATE_XFORM.VX"], names["DRIVE.ANGLE"])
 print(xml.get_component(res, "PLATE_XFORM.VX"))
 print(xml.get_component(res, "PIN_FRICTION.BETA"))
+print(xml.get_component(res, "PIN_FRICTION_DETAIL.DRIFT_A"))
 series, units = xml.get_results(res, return_units=True)
 print(series["time"], series["DRIVE"]["ANGLE"], sorted(units["DRIVE"].items()))
 print(msg.get_timestamps(log)[2], len(msg.get_timestamps(log)))
@@ -126,9 +136,10 @@ fn adamspy_reads_our_files() {
     .unwrap();
     // Value k of row r is (1000 r + k)/8 and has id k + 2.
     let expected = "\
-        71 1 20 71\n\
+        94 1 20 71\n\
         [2.25, 127.25, 252.25, 377.25]\n\
         [8.375, 133.375, 258.375, 383.375]\n\
+        [11.5, 136.5, 261.5, 386.5]\n\
         [0.25, 0.5, 0.75] [133.625, 258.625, 383.625] [('ANGLE', 'ANGLE'), ('TORQUE', 'TORQUE')]\n\
         [0.5, 0.001, 7, 5, 2, 83.5] 3\n\
         True True 2\n\

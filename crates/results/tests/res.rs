@@ -1,8 +1,8 @@
 //! Writing and reading `.res` files: round trip, cut files, refused values, bad input.
 
 use results::{
-    Component, DataKind, Entity, Header, Layout, ReadError, ResFile, ResWriter, UnitNames,
-    WriteError,
+    Component, DataKind, Entity, FRICTION_DETAIL, Header, Layout, ReadError, ResFile, ResWriter,
+    SurfaceMotion, UnitNames, WriteError,
 };
 
 /// A model with every kind of entity and awkward names.
@@ -303,4 +303,60 @@ fn no_mutation_panics() {
         failed += usize::from(ResFile::from_reader(file.as_slice()).is_err());
     }
     assert!(failed > 1000, "mutations do little: {failed}");
+}
+
+#[test]
+fn what_is_ours_comes_last_and_moves_nothing() {
+    let units = UnitNames::default();
+    let write = |ours: bool| {
+        let mut layout = Layout::new();
+        layout
+            .push_family(vec![Entity::part("BAR", 2, &units)], &[6, 6, 6])
+            .unwrap();
+        layout.push(Entity::friction("PIN", 3, &units));
+        if ours {
+            let motion = SurfaceMotion::SlidingAndTurning;
+            layout.push(Entity::friction_detail("PIN", 3, motion, true, &units));
+        }
+        let values: Vec<f64> = (0..layout.value_count()).map(|k| k as f64).collect();
+        let mut file = Vec::new();
+        let mut writer = ResWriter::new(&mut file, &Header::default(), layout).unwrap();
+        writer.begin_data(DataKind::Dynamic).unwrap();
+        writer.step(0.5, &values).unwrap();
+        writer.finish("Successful").unwrap();
+        ResFile::from_reader(file.as_slice()).unwrap()
+    };
+    let (without, with) = (write(false), write(true));
+    for entity in &without.entities {
+        for component in &entity.components {
+            let name = format!("{}.{}", entity.name, component.name);
+            assert_eq!(with.column(&name), without.column(&name), "{name}");
+        }
+    }
+    let own = with.entities.last().unwrap();
+    assert_eq!(
+        (own.kind.as_str(), own.object_id),
+        (FRICTION_DETAIL, Some(3))
+    );
+    // A cylindrical joint has both deflections and both drifts; all have the units of their kind.
+    let units: Vec<(&str, &str)> = own
+        .components
+        .iter()
+        .map(|component| (component.name.as_str(), component.unit.as_str()))
+        .collect();
+    assert_eq!(units.len(), 19 + 6 + 2);
+    for pair in [
+        ("REGIME", ""),
+        ("LOAD_BENDING", "newton"),
+        ("BY_PRELOAD", "newton"),
+        ("POWER", "newton-meter/sec"),
+        ("DISSIPATED", "newton-meter"),
+        ("STICK_END", "sec"),
+        ("BRISTLE_Z", "meter"),
+        ("BRISTLE_AZ", "meter"),
+        ("DRIFT_A", "meter"),
+    ] {
+        assert!(units.contains(&pair), "{pair:?}");
+    }
+    assert_eq!(with.get("PIN_DETAIL.REGIME").unwrap(), [18.0 + 26.0]);
 }
