@@ -91,6 +91,7 @@ tests that need them say so and the command changes nothing.
 * A regularised law approaches exact stick and slip with the first power of Vs and Dm; *orders* are
   those observed between the levels. Cases whose solution with the law itself is known are compared
   directly.
+* A test is named as `package/binary: name`: `cargo test -p package --test binary name` runs it.
 * Values are printed with five digits and errors with two; the tests compare all digits.
 * The ids are those of the validation suite (A to D) and of the specification's list (9.1 to 9.18).
 ";
@@ -166,6 +167,7 @@ fn row(page: &mut String, claim: &Claim) {
     };
     let orders = number::list(&claim.orders(), number::order);
     let (rule, orders) = match claim.rule {
+        Rule::Below(0.0) => ("equal".to_string(), String::new()),
         Rule::Below(bound) => (format!("≤ {bound:e}"), String::new()),
         Rule::Order(p) => (
             format!("order {p} ± {MARGIN}"),
@@ -181,7 +183,7 @@ fn row(page: &mut String, claim: &Claim) {
         ),
     };
     let errors = number::list(&claim.errors, number::error);
-    let mark = if claim.holds() { "" } else { " **fails**" };
+    let mark = if claim.holds() { "" } else { FAILS };
     let cells = [
         claim.quantity.clone(),
         shown(&claim.reference),
@@ -194,23 +196,54 @@ fn row(page: &mut String, claim: &Claim) {
     push(page, format_args!("| {} |\n", cells.join(" | ")));
 }
 
+/// Mark of a claim that does not hold.
+pub const FAILS: &str = " **fails**";
 /// Word of an allowed cell that no claim covers.
 pub const EMPTY: &str = "**missing**";
 
-fn matrix(page: &mut String, claims: &[Recorded]) {
-    let mut cases: BTreeMap<&Cell, Vec<&str>> = BTreeMap::new();
-    for recorded in claims {
-        for cell in &recorded.claim.covers {
-            let ids = cases.entry(cell).or_default();
-            if !ids.contains(&recorded.claim.id.as_str()) {
-                ids.push(&recorded.claim.id);
+/// Most cases that a cell names beside the test of the argument itself.
+const NAMED: usize = 4;
+
+/// What a cell names: the test of the argument itself, then cases that verify it too.
+#[derive(Default)]
+struct Verifiers<'a> {
+    test: Option<&'a str>,
+    cases: Vec<&'a str>,
+}
+
+impl std::fmt::Display for Verifiers<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut names: Vec<String> = self.test.iter().map(|test| format!("`{test}`")).collect();
+        names.extend(self.cases.iter().take(NAMED).map(|id| (*id).to_string()));
+        if self.cases.len() > NAMED {
+            names.push(format!("{} more", self.cases.len() - NAMED));
+        }
+        f.write_str(&names.join("; "))
+    }
+}
+
+fn verifiers(claims: &[Recorded]) -> BTreeMap<&Cell, Verifiers<'_>> {
+    let mut verifiers: BTreeMap<&Cell, Verifiers<'_>> = BTreeMap::new();
+    for Recorded { test, claim } in claims {
+        for cell in &claim.covers {
+            let of_cell = verifiers.entry(cell).or_default();
+            if claim.section == Section::Argument {
+                of_cell.test = test.rsplit([' ', ':']).next();
+            } else if !of_cell.cases.contains(&claim.id.as_str()) {
+                of_cell.cases.push(&claim.id);
             }
         }
     }
+    verifiers
+}
+
+fn matrix(page: &mut String, claims: &[Recorded]) {
+    let verifiers = verifiers(claims);
     page.push_str(
         "\n## Coverage: joint × formulation × argument\n\n\
-         Each cell names the cases that verify the argument in that joint; their headings above name\n\
-         the test. A bar is where the statement has no such argument.\n",
+         Each cell names the test of `crates/verification/tests/arguments` that changes this argument\n\
+         alone, and cases above that verify it too; their headings name the test. A bar is where the\n\
+         statement has no such argument.\n",
     );
     let allowed = coverage::all();
     for formulation in Formulation::ALL {
@@ -233,10 +266,10 @@ fn matrix(page: &mut String, claims: &[Recorded]) {
             }
             push(page, format_args!("| `{}` |", parameter.keyword));
             for cell in cells {
-                let text = match cases.get(&cell) {
+                let text = match verifiers.get(&cell) {
                     _ if !allowed.contains(&cell) => "–".to_string(),
                     None => EMPTY.to_string(),
-                    Some(ids) => ids.join(", "),
+                    Some(verifiers) => verifiers.to_string(),
                 };
                 push(page, format_args!(" {text} |"));
             }
