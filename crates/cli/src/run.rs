@@ -131,6 +131,8 @@ fn tell(folder: &Path, report: &RunReport) {
     let table = friction_table(&report.frictions);
     if !table.is_empty() {
         text += &format!("\n{table}");
+        let folder = folder.display();
+        text += &format!("stiction explain {folder} tells where the friction came from\n");
     }
     say(&text);
 }

@@ -24,6 +24,9 @@
 //! | `BRISTLE_X`.. `BRISTLE_AX`.. | length | LUGRE alone: bristle deflection of sliding and of turning, where the joint has it, in the axes of the creep |
 //! | `DRIFT_Z` `DRIFT_A` or `DRIFT_AX`.. | length | LUGRE alone: how far the surfaces moved while they stuck beyond what the bristles gave way, along and about the axis or about the axes of J |
 //!
+//! Nothing is known of what Adams reports of LUGRE beyond the 26; so its bristles stand here, and the
+//! entity of Adams keeps its length.
+//!
 //! The load is a force where the joint slides, else a torque. What is counted (`STICKS` to
 //! `LARGEST_CREEP` and the drift) is as of the end of an accepted step, one of the two that enclose
 //! the output.

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use mechanics::{Observer, Snapshot, StepReport};
+use mechanics::{Snapshot, StepReport};
 use results::{DataKind, ReqWriter, ResWriter, StepRow, WriteError};
 
 use crate::balance::EnergyAccount;
@@ -140,8 +140,9 @@ pub(crate) struct Observe<'a, W: Write> {
     pub(crate) interrupted: bool,
 }
 
-impl<W: Write> Observer for Observe<'_, W> {
-    fn step(&mut self, report: &StepReport) -> bool {
+impl<W: Write> Observe<'_, W> {
+    /// After an accepted step; returns whether to go on.
+    pub(crate) fn step(&mut self, report: &StepReport) -> bool {
         if report.time >= self.next_row {
             let row = StepRow {
                 time: report.time,
@@ -166,11 +167,12 @@ impl<W: Write> Observer for Observe<'_, W> {
         !self.interrupted
     }
 
-    fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
-        let wrenches = Wrenches::new(snapshot);
-        let written = self.recorder.output(&wrenches);
+    /// At an output; returns whether to go on.
+    pub(crate) fn output(&mut self, wrenches: &Wrenches<'_>) -> bool {
+        let written = self.recorder.output(wrenches);
         let warned = written.and_then(|()| {
-            let watched = self.log.watch_overlap(&wrenches);
+            let watched = self.log.watch_overlap(wrenches);
+            let snapshot = wrenches.snapshot();
             let watched = watched.and_then(|()| self.log.watch_redundant(snapshot, self.length));
             watched.map_err(Stop::Output)
         });

@@ -291,6 +291,9 @@ impl<'a> Runner<'a> {
         }
         let assembled = self.simulation.replace_model(model);
         let assembled = assembled.map_err(|error| self.not_assembled(&error))?;
+        // Reactions of the changed model: friction at the start of what follows reads them. Where
+        // there are none the simulation that follows says so.
+        let _ = self.simulation.solve_instant();
         assembled.map_or(Ok(()), |assembly| self.log_assembly(&assembly))
     }
 

@@ -86,15 +86,12 @@ impl Sensors {
 
     /// The events that begin at an instant. One of EQ is also that the function has passed VALUE
     /// since the output before; none is told again while it lasts.
-    pub(crate) fn events(&mut self, snapshot: &Snapshot<'_>) -> Vec<Event> {
-        if self.watched.is_empty() {
-            return Vec::new();
-        }
-        let wrenches = Wrenches::new(snapshot);
+    pub(crate) fn events(&mut self, wrenches: &Wrenches<'_>) -> Vec<Event> {
+        let snapshot = wrenches.snapshot();
         let mut events = Vec::new();
         for watched in &mut self.watched {
             let sensor = &watched.sensor;
-            let results = |number: usize| self.outputs.results[number].value(&wrenches);
+            let results = |number: usize| self.outputs.results[number].value(wrenches);
             let function = snapshot.evaluate(&watched.function, &results);
             let difference = function - sensor.value;
             let holds = match sensor.comparison {
@@ -131,10 +128,11 @@ impl<W: Write> Observer for Sensing<'_, W> {
     }
 
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
-        if !self.rows.output(snapshot) {
+        let wrenches = Wrenches::new(snapshot);
+        if !self.rows.output(&wrenches) {
             return false;
         }
-        for event in self.sensors.events(snapshot) {
+        for event in self.sensors.events(&wrenches) {
             if let Err(error) = self.rows.log.note(&event.text) {
                 self.rows.stop = Some(Stop::Output(error));
                 return false;

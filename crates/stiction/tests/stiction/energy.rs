@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use stiction::{EnergyBalance, Outcome, Project, RunOptions};
 use verification::{Case, Rule, Section, check};
 
-use crate::runs::with_commands;
+use crate::runs::{run_commands, with_commands};
 use crate::shared::run;
 
 /// Two bars without friction that swing on one another.
@@ -233,4 +233,19 @@ SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=-100*DZ(20, 1)
             .iter()
             .all(|e| e.kind != results::FRICTION_DETAIL)
     );
+}
+
+#[test]
+fn a_balance_that_does_not_close_is_a_warning() {
+    let coarse = "\nINTEGRATOR/GSTIFF, I3, ERROR=1E-2\nSIMULATE/DYNAMIC, END=10, DTOUT=0.1\n";
+    let run = run_commands(FRICTIONLESS, coarse);
+    assert!(run.report.balance.unwrap().residual_share() > 1e-3);
+    assert_eq!(run.report.warnings, 1, "{}", run.messages);
+    let messages = run.messages;
+    assert!(
+        messages.contains("the energy balance of the run does not close"),
+        "{messages}"
+    );
+    let fine = "\nSIMULATE/DYNAMIC, END=10, DTOUT=0.1\n";
+    assert_eq!(run_commands(FRICTIONLESS, fine).report.warnings, 0);
 }
