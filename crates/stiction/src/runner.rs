@@ -291,10 +291,13 @@ impl<'a> Runner<'a> {
         }
         let assembled = self.simulation.replace_model(model);
         let assembled = assembled.map_err(|error| self.not_assembled(&error))?;
-        // Reactions of the changed model: friction at the start of what follows reads them. Where
-        // there are none the simulation that follows says so.
+        let Some(assembly) = assembled else {
+            return Ok(());
+        };
+        // Reactions of the other constraints, which friction at the start of what follows reads.
+        // Where there are none the simulation that follows says so.
         let _ = self.simulation.solve_instant();
-        assembled.map_or(Ok(()), |assembly| self.log_assembly(&assembly))
+        self.log_assembly(&assembly)
     }
 
     fn assemble(&mut self) -> Result<(), Halt> {
