@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 use verification::{Case, Coverage, Section, check};
 
 use crate::builder::{Builder, axes_with_z, v};
-use crate::runs::assembled;
+use crate::oracle::{psi, root};
+use crate::runs::{assembled, run, settings};
 use crate::shared::{number, reference};
 use crate::systems::law;
 use crate::systems::sliding::Block;
@@ -189,9 +190,87 @@ fn bending_of_a_guide_feeds_back_into_its_friction() {
             rounding,
         ),
     ]);
-    // A gain over one has no solution: an error, not numbers.
-    let error = high_block(0.6, 9.80665, 0.0)
-        .solve_instant()
-        .expect_err("it jams");
-    assert!(error.to_string().contains("FRICTION/1"), "{error}");
+    // A gain of one and more has no solution: an error that names friction and gain, not numbers.
+    let mut gains = Vec::new();
+    for height in [0.5, 0.6, 1.0] {
+        let error = high_block(height, 9.80665, 0.0)
+            .solve_instant()
+            .expect_err("it jams");
+        let message = error.to_string();
+        assert!(message.contains("FRICTION/1"), "{message}");
+        let words = message
+            .split("adds ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
+        gains.push(
+            words
+                .and_then(|word| word.parse().ok())
+                .expect("the gain is said"),
+        );
+    }
+    let case = Case {
+        id: "C04a jams",
+        model: "the same with its centre 0.5, 0.6, 1 m above: it jams, which is reported",
+        source: "gain μ h/Xs",
+        ..case
+    };
+    check(&[case.values(
+        "gain in the message",
+        &gains,
+        &[1.0, 1.2, 2.0],
+        6e-4,
+        "three decimals",
+    )]);
+}
+
+#[test]
+fn push_off_the_axis_slides_or_sticks_whatever_its_size() {
+    // A push P at the height h presses the guide with P h/Xs: no weight, no other load.
+    let pushed = |height: f64, push: f64, speed: f64| {
+        let mut block = Block::new(law(0.2, 0.2, 1e-4, 1e-6));
+        (block.gravity, block.slope, block.velocity) = (0.0, 0.0, speed);
+        (block.load.initial_overlap, block.bending) = (0.1, push * height);
+        let mut b = block.builder();
+        let axes = axes_with_z(Vector3::x());
+        let [i, j] = [Some(0), None].map(|on| b.marker(on, Vector3::zeros(), axes));
+        b.force(ForceKind::AlongZ, i, j, Program::constant(push));
+        b.model
+    };
+    let sliding = assembled(pushed(0.3, 5.0, 1.0));
+    let acceleration = sliding.snapshot().part_acceleration(0).linear.x;
+    // Below the limit it creeps to where μ ψ(d/Dm) h/Xs = 1, for any push.
+    let creep = root(0.0, 1e-6, |d| 1.0 / 1.2 - psi(d / 1e-6));
+    let mut ours = Vec::new();
+    for push in [5.0, 500.0] {
+        let settings = settings(mechanics::Formulation::Si2, 1e-12, 0.1);
+        let end = run(pushed(0.6, push, 0.0), &[5.0], &settings, |_| {});
+        ours.push(end.state().centre(0).x);
+    }
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C04a push",
+        model: "2 kg pushed at 0.3 and 0.6 m from the axis of a guide of overlap 0.1 m, μ 0.2, without weight",
+        source: "closed form: slides with (P − μ P h/Xs)/m below μ h/Xs = 1, sticks from there on",
+        covers: &[Coverage {
+            joint: JointType::Translational,
+            formulation: verification::Formulation::Original,
+            arguments: &["INITIAL_OVERLAP", "BENDING_FACTOR", "INPUTS"],
+        }],
+    };
+    check(&[
+        case.values(
+            "acceleration at 0.3 m, 5 N [m/s²]",
+            &[acceleration],
+            &[1.0],
+            1e-12,
+            "rounding",
+        ),
+        case.values(
+            "x at 0.6 m after 5 s, 5 and 500 N [m]",
+            &ours,
+            &[creep; 2],
+            1e-9,
+            "the creep that holds; the error of the integrator",
+        ),
+    ]);
 }

@@ -45,3 +45,21 @@ pub(crate) fn bristles<const N: usize>(
     });
     (rate, force)
 }
+
+/// Where a falling function passes zero between `low` and `high`.
+pub(crate) fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// The odd quintic step of the original law.
+pub(crate) fn psi(s: f64) -> f64 {
+    (15.0 * s - 10.0 * s.powi(3) + 3.0 * s.powi(5)) / 8.0
+}

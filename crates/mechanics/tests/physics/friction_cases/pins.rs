@@ -5,6 +5,7 @@ use mechanics::Formulation;
 use verification::{Case, Rule, Section, check};
 
 use super::{HALVINGS, TURNS, original};
+use crate::oracle::{psi, root};
 use crate::runs::{Sample, every, run, settings, turned, turning_points};
 use crate::shared::{number, reference};
 use crate::systems::law;
@@ -130,4 +131,40 @@ fn pendulum_and_its_closed_form() {
     };
     let quantity = "worst angle of four turns [rad]";
     check(&[case.vanishing(quantity, &errors, Rule::AtLeastOrder(1.0), TURNS)]);
+}
+
+/// A pin that holds a pendulum off the vertical: where `m g L sin θ = μ_s m g Rp ψ(d/Dm)` with the
+/// creep `d` that took it there.
+#[test]
+fn pendulum_held_by_its_pin() {
+    let (mu, radius, length, max_deformation) = (0.3, 0.05, 0.5, 1e-3);
+    let start = 0.025_f64;
+    let pendulum = Pendulum {
+        length,
+        pin_radius: radius,
+        inertia: 1.0 / 12.0,
+        gravity: 9.80665,
+        angle: start,
+        rate: 0.0,
+        // Vs small enough to damp the swing on the creep.
+        law: law(mu, mu, 1e-3, max_deformation).into(),
+    };
+    let creep = root(0.0, max_deformation, |creep| {
+        length * (start - creep / radius).sin() - mu * radius * psi(creep / max_deformation)
+    });
+    let mut angles = Vec::new();
+    let settings = settings(Formulation::Si2, 1e-9, 100.0);
+    run(pendulum.model(), &[100.0, 1000.0, 1e4], &settings, |s| {
+        angles.push(start + turned(s, 0));
+    });
+    let case = Case {
+        section: Section::Joint,
+        id: "hold, revolute",
+        model: "rod of 1 kg and 1 m held at 25 mrad by a pin of 0.05 m, μs 0.3, Dm 1 mm, Vs 1 mm/s",
+        source: "equilibrium L sin θ = μs Rp ψ(d/Dm) by bisection",
+        covers: &original(JointType::Revolute, &["PIN_RADIUS"]),
+    };
+    let exact = [start - creep / radius; 3];
+    let why = "no drift is allowed; the approach is over by 100 s";
+    check(&[case.values("θ at 100, 1000, 10000 s [rad]", &angles, &exact, 1e-9, why)]);
 }

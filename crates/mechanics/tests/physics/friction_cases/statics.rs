@@ -5,6 +5,7 @@ use mechanics::{EquilibriumSettings, Formulation, Simulation};
 use verification::{Case, Coverage, Section, check};
 
 use super::original;
+use crate::oracle::psi;
 use crate::runs::{go_on, settings};
 use crate::systems::sliding::{Block, place};
 use crate::systems::{bristles, law};
@@ -27,11 +28,6 @@ fn block(slope: f64, law: impl Into<mechanics::model::Law>, inactive: bool) -> S
     let mut simulation = Simulation::new(model, 1.0);
     simulation.assemble().expect("it assembles");
     simulation
-}
-
-/// `ψ(s)` of the law.
-fn psi(s: f64) -> f64 {
-    (15.0 * s - 10.0 * s.powi(3) + 3.0 * s.powi(5)) / 8.0
 }
 
 #[test]

@@ -77,6 +77,28 @@ pub(crate) fn rotor(
     b.model
 }
 
+/// B05: a rotor of 2 kg and 0.01 kg m² on a vertical axis, turning at 50 rad/s, that carries a mass
+/// of 0.3 kg at 0.05 m from the axis and `height` above the joint.
+pub(crate) fn unbalanced_rotor(height: f64, law: Original) -> Model {
+    let mut b = Builder::new(v(0.0, 0.0, -9.80665));
+    let rotor = b.body(2.0, [0.01; 3], Vector3::zeros());
+    let eccentric = b.body(0.3, [0.0; 3], v(0.05, 0.0, height));
+    let joint = b.pin(Some(rotor), None, Vector3::zeros());
+    let at = v(0.05, 0.0, height);
+    b.joint(
+        JointKind::Fixed,
+        Some(eccentric),
+        Some(rotor),
+        at,
+        Vector3::z(),
+    );
+    for body in [rotor, eccentric] {
+        b.spin(body, v(0.0, 0.0, 50.0), Vector3::zeros());
+    }
+    b.friction(joint, law, bearing_load(0.01, 0.03, 0.05));
+    b.model
+}
+
 /// 1 kg with its centre 0.5 m below a ball joint, inertia about the centre (0.02, 0.02, 0.005) in
 /// part axes, tilted by `tilt` about x, turning with `rates` along part axes; g = 9.80665 m/s².
 pub(crate) fn ball_pendulum(
