@@ -239,3 +239,51 @@ fn fast_belt() {
         "steps of an error of 1e-10, some hundred of them",
     )]);
 }
+
+/// A12c: a mass pulled by a spring whose end runs away, seen from that end: a belt.
+#[test]
+fn mass_pulled_by_a_spring() {
+    let Some(file) = reference("validation/data/A12_original_law.json") else {
+        return;
+    };
+    let of = |key: &str| number(&file, &format!("/cases/c_rabinowicz/{key}"));
+    let belt = Belt {
+        mass: 1.0,
+        gravity: 10.0,
+        stiffness: 2.0,
+        speed: 0.1,
+        start: 0.1,
+    };
+    let ends = [2e-3, 1e-3, 5e-4, 2.5e-4].map(|vs| {
+        let settings = settings(Formulation::Si2, 1e-10, 0.01);
+        let model = belt.model(law(0.15, 0.1, vs, 0.1 * vs));
+        let end = run(model, &[20.0], &settings, |_| {});
+        0.1 * 20.0 - place(&end.snapshot())
+    });
+    let case = Case {
+        section: Section::Mechanism,
+        id: "A12c",
+        model: "1 kg pulled at 0.1 m/s by a spring of 2 N/m under 10 N, μs 0.15, μd 0.1; Vs from 2 mm/s, Dm = 0.1 s Vs",
+        source: "the law itself, integrated to 1e-9; exact stick and slip",
+        covers: &original(
+            JointType::Translational,
+            &["TRANSITION_VELOCITY_COEFFICIENT"],
+        ),
+    };
+    check(&[
+        case.values(
+            "x(20) at the first Vs [m]",
+            &ends[..1],
+            &[of("x_orig_20")],
+            1e-7,
+            "how the displacement within the step that enters the stick regime counts as creep is ours",
+        ),
+        case.limit(
+            "x(20) [m]",
+            &ends,
+            of("x_exact_20"),
+            Rule::AtLeastOrder(0.5),
+            "between Vs^0.5 and Vs^0.6 at break-away, as the reference observes",
+        ),
+    ]);
+}
