@@ -249,6 +249,11 @@ impl Parser<'_, '_> {
             return Err(Refused);
         }
         self.at += 1;
+        // A list may start on the next line: the comma there only continues the statement.
+        let begins = self.items.get(self.at).is_some_and(|item| item.continues);
+        if begins && self.kind(self.at) == Some(TokenKind::Comma) && self.number_at(self.at + 1) {
+            self.at += 1;
+        }
         match kind {
             Kind::Real => self.reals(name, 1, 1),
             Kind::Reals(least, most) => self.reals(name, least, most),

@@ -1,13 +1,14 @@
 //! Commands that change the model, and what they do to a [`Dataset`].
 
 pub(crate) use crate::statements::{
-    EQUILIBRIUM_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS, SFORCE_KEYWORDS,
-    VARIABLE_KEYWORDS,
+    EQUILIBRIUM_KEYWORDS, GFORCE_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS,
+    SFORCE_KEYWORDS, VARIABLE_KEYWORDS, VFORCE_KEYWORDS, VTORQUE_KEYWORDS,
 };
 
 use crate::checks;
 use crate::commands::read_command;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::expression::Expression;
 use crate::keywords::{Keyword, Kind, keyword};
 use crate::model::{
     Activity, Change, ChangeKind, CommandKind, Dataset, Equilibrium, Friction, FrictionArguments,
@@ -115,6 +116,33 @@ pub(crate) fn single_force(reading: &mut Reading) -> Option<CommandKind> {
         function: reading.required_expression("FUNCTION"),
     };
     Some(change(reading, kind))
+}
+
+/// VFORCE as a command.
+pub(crate) fn vector_force(reading: &mut Reading) -> Option<CommandKind> {
+    Some(components(reading, Switchable::VectorForce))
+}
+
+/// VTORQUE as a command.
+pub(crate) fn vector_torque(reading: &mut Reading) -> Option<CommandKind> {
+    Some(components(reading, Switchable::VectorTorque))
+}
+
+/// GFORCE as a command.
+pub(crate) fn general_force(reading: &mut Reading) -> Option<CommandKind> {
+    Some(components(reading, Switchable::GeneralForce))
+}
+
+/// New functions of components.
+fn components(reading: &mut Reading, kind: Switchable) -> CommandKind {
+    fixed(reading, &["I", "JFLOAT", "RM"]);
+    something(reading);
+    let kind = ChangeKind::VectorForce {
+        kind,
+        id: reading.id,
+        components: Box::new(statements::components(reading)),
+    };
+    change(reading, kind)
 }
 
 /// MOTION as a command.
@@ -299,6 +327,22 @@ impl Dataset {
                     self.single_forces.by_id_mut(*id)?.function = function.clone();
                 }
             }
+            ChangeKind::VectorForce {
+                kind,
+                id,
+                components,
+            } => {
+                self.components_mut(*kind, *id)?;
+                let mut given = components.iter().flatten();
+                if given.all(|function| checks::expression(self, function, diagnostics)) {
+                    let old = self.components_mut(*kind, *id)?;
+                    for (old, new) in old.iter_mut().zip(components.iter()) {
+                        if new.is_some() {
+                            old.clone_from(new);
+                        }
+                    }
+                }
+            }
             ChangeKind::Motion { id, function } => {
                 self.motions.position(*id)?;
                 if checks::expression(self, function, diagnostics) {
@@ -329,6 +373,21 @@ impl Dataset {
         }
         Some(())
     }
+
+    /// The components of a VFORCE, VTORQUE or GFORCE.
+    fn components_mut(
+        &mut self,
+        kind: Switchable,
+        id: u32,
+    ) -> Option<&mut [Option<Expression>; 6]> {
+        let list = match kind {
+            Switchable::VectorForce => &mut self.vector_forces,
+            Switchable::VectorTorque => &mut self.vector_torques,
+            Switchable::GeneralForce => &mut self.general_forces,
+            _ => return None,
+        };
+        list.by_id_mut(id).map(|force| &mut force.components)
+    }
 }
 
 impl ChangeKind {
@@ -351,6 +410,7 @@ impl Change {
         match self.kind {
             ChangeKind::Variable { id, .. } => ("VARIABLE", id),
             ChangeKind::SingleForce { id, .. } => ("SFORCE", id),
+            ChangeKind::VectorForce { kind, id, .. } => (kind.statement(), id),
             ChangeKind::Motion { id, .. } => ("MOTION", id),
             ChangeKind::Friction { id, .. } => ("FRICTION", id),
             ChangeKind::Integrator(_) => ("INTEGRATOR", 0),

@@ -210,6 +210,27 @@ const COMMANDS: &[Rule] = &[
         change::single_force,
     ),
     read(
+        "VFORCE",
+        "VF",
+        true,
+        change::VFORCE_KEYWORDS,
+        change::vector_force,
+    ),
+    read(
+        "VTORQUE",
+        "VT",
+        true,
+        change::VTORQUE_KEYWORDS,
+        change::vector_torque,
+    ),
+    read(
+        "GFORCE",
+        "GF",
+        true,
+        change::GFORCE_KEYWORDS,
+        change::general_force,
+    ),
+    read(
         "MOTION",
         "MO",
         true,

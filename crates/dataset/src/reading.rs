@@ -161,6 +161,16 @@ impl<'a, 's> Reading<'a, 's> {
         }
     }
 
+    /// Three numbers that are not negative.
+    pub(crate) fn not_negative_vector(&mut self, keyword: &str) -> Option<[f64; 3]> {
+        let vector = self.vector(keyword)?;
+        if vector.iter().all(|value| *value >= 0.0) {
+            return Some(vector);
+        }
+        self.out_of_range(keyword, "three numbers, each 0 or greater");
+        None
+    }
+
     /// A whole number.
     pub(crate) fn integer(&self, keyword: &str) -> Option<u32> {
         self.ids(keyword).first().map(|(value, _)| *value)

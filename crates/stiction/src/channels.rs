@@ -1,8 +1,8 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
-//! Order: parts and point masses, joints, primitives, motions, general constraints, forces,
-//! spring-dampers, variables, plant inputs and outputs, frictions, requests; last our own entities,
-//! one a friction, where readers that look for those of Adams do not meet them.
+//! Order: parts and point masses, joints, primitives, motions, general constraints, applied forces,
+//! variables, plant inputs and outputs, frictions, requests; last our own entities, one a friction,
+//! where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
 use mechanics::Owner;
@@ -11,7 +11,9 @@ use mechanics::rotation::to_euler_313;
 use results::{Component, Entity, Layout, LayoutError, Request, UnitNames};
 
 use crate::friction_detail;
-use crate::lower::{Column, ForceElement, Lowered, Outputs, Unit, view_name};
+use crate::lower::{
+    APPLIED, Column, ForceElement, Lowered, Outputs, Unit, applied_headers, view_name,
+};
 use crate::wrenches::Wrenches;
 
 /// The channels of a model.
@@ -68,13 +70,11 @@ impl Channels {
             let constraint = ForceElement::Constraint(Owner::General(place));
             push(&element.header, "GCON", "General_Constraint", constraint);
         }
-        for (place, element) in dataset.single_forces.iter().enumerate() {
-            let force = ForceElement::Applied(place);
-            push(&element.header, "SFORCE", "Single_Component_Force", force);
-        }
-        for (place, element) in dataset.spring_dampers.iter().enumerate() {
-            let force = ForceElement::Applied(dataset.single_forces.len() + place);
-            push(&element.header, "SPRINGDAMPER", "Spring_Damper", force);
+        for (kind, name, _) in APPLIED {
+            for (place, header) in applied_headers(dataset, kind).into_iter().enumerate() {
+                let force = ForceElement::applied(dataset, kind, place);
+                push(header, kind.statement(), name, force);
+            }
         }
         for element in &dataset.variables {
             let name = name(&element.header, "VARIABLE");

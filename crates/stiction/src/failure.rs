@@ -18,6 +18,12 @@ fn span_of(dataset: &Dataset, element: &Label) -> Option<Span> {
         "GCON" => &dataset.constraints.by_id(id)?.header,
         "SFORCE" => &dataset.single_forces.by_id(id)?.header,
         "SPRINGDAMPER" => &dataset.spring_dampers.by_id(id)?.header,
+        "VFORCE" => &dataset.vector_forces.by_id(id)?.header,
+        "VTORQUE" => &dataset.vector_torques.by_id(id)?.header,
+        "GFORCE" => &dataset.general_forces.by_id(id)?.header,
+        "BUSHING" => &dataset.bushings.by_id(id)?.header,
+        "FIELD" => &dataset.fields.by_id(id)?.header,
+        "BEAM" => &dataset.beams.by_id(id)?.header,
         "FRICTION" => &dataset.frictions.by_id(id)?.header,
         _ => return None,
     };

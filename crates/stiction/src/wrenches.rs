@@ -1,7 +1,6 @@
 //! Forces and torques of every element at a solved instant.
 
 use friction::Regime;
-use mechanics::model::ForceKind;
 use mechanics::state::MarkerFrame;
 use mechanics::{FrictionValues, Owner, Snapshot, Wrench};
 use nalgebra::Vector3;
@@ -58,7 +57,14 @@ impl<'a> Wrenches<'a> {
             ForceElement::Constraint(Owner::Joint(joint)) => self.joints[joint],
             ForceElement::Constraint(Owner::Motion(motion)) => self.motions[motion],
             ForceElement::Constraint(Owner::General(place)) => self.generals[place],
-            ForceElement::Applied(force) => self.forces[force],
+            ForceElement::Applied { first, count } => {
+                let mut sum = Wrench::default();
+                for component in &self.forces[first..first + count] {
+                    sum.force += component.force;
+                    sum.torque += component.torque;
+                }
+                sum
+            }
             ForceElement::Friction(friction) => self.friction_on_i(friction),
         }
     }
@@ -71,7 +77,11 @@ impl<'a> Wrenches<'a> {
         if !on_both {
             return Wrench::default();
         }
-        let arm = self.marker(i).origin - self.marker(j).origin;
+        let arm = if self.j_floats(element) {
+            Vector3::zeros()
+        } else {
+            self.marker(i).origin - self.marker(j).origin
+        };
         Wrench {
             force: -wrench.force,
             torque: -(wrench.torque + arm.cross(&wrench.force)),
@@ -89,7 +99,7 @@ impl<'a> Wrenches<'a> {
             .chain((0..model.constraints.len()).map(Owner::General));
         let elements = constraints
             .map(ForceElement::Constraint)
-            .chain((0..model.forces.len()).map(ForceElement::Applied))
+            .chain((0..model.forces.len()).map(|first| ForceElement::Applied { first, count: 1 }))
             .chain((0..model.frictions.len()).map(ForceElement::Friction));
         let mut sum = Wrench::default();
         for element in elements {
@@ -108,6 +118,14 @@ impl<'a> Wrenches<'a> {
         sum
     }
 
+    /// Whether marker J of an element stands where I stands.
+    fn j_floats(&self, element: ForceElement) -> bool {
+        match element {
+            ForceElement::Applied { first, .. } => self.snapshot.model().forces[first].j_floats(),
+            ForceElement::Constraint(_) | ForceElement::Friction(_) => false,
+        }
+    }
+
     /// Markers I and J of an element, and whether it acts on both.
     fn markers(&self, element: ForceElement) -> (usize, usize, bool) {
         let model = self.snapshot.model();
@@ -124,10 +142,9 @@ impl<'a> Wrenches<'a> {
                 let marker = |marker: Option<usize>| marker.unwrap_or(usize::MAX);
                 (marker(constraint.i), marker(constraint.j), true)
             }
-            ForceElement::Applied(place) => {
-                let force = &model.forces[place];
-                let on_both = matches!(force.kind, ForceKind::LineOfSight | ForceKind::AboutZ);
-                (force.i, force.j, on_both)
+            ForceElement::Applied { first, .. } => {
+                let force = &model.forces[first];
+                (force.i, force.j, force.kind.acts_on_both())
             }
             ForceElement::Friction(place) => {
                 let joint = &model.joints[model.frictions[place].joint];

@@ -30,6 +30,41 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         let name = format!("SPRINGDAMPER/{}", spring.header.id);
         two_markers(&name, spring.i, spring.j, spring.header.span, diagnostics);
     }
+    for (name, list) in [
+        ("VFORCE", &dataset.vector_forces),
+        ("VTORQUE", &dataset.vector_torques),
+        ("GFORCE", &dataset.general_forces),
+    ] {
+        for force in list {
+            let name = format!("{name}/{}", force.header.id);
+            two_parts(
+                dataset,
+                &name,
+                force.i,
+                force.j_float,
+                force.header.span,
+                diagnostics,
+            );
+        }
+    }
+    for bushing in &dataset.bushings {
+        let name = format!("BUSHING/{}", bushing.header.id);
+        two_markers(
+            &name,
+            bushing.i,
+            bushing.j,
+            bushing.header.span,
+            diagnostics,
+        );
+    }
+    for field in &dataset.fields {
+        let name = format!("FIELD/{}", field.header.id);
+        two_markers(&name, field.i, field.j, field.header.span, diagnostics);
+    }
+    for beam in &dataset.beams {
+        let name = format!("BEAM/{}", beam.header.id);
+        two_markers(&name, beam.i, beam.j, beam.header.span, diagnostics);
+    }
     motions(dataset, diagnostics);
     parts(dataset, diagnostics);
 }
@@ -70,7 +105,7 @@ fn two_parts(
         diagnostics
             .error(Code::InvalidConnection, span, message)
             .note(format!("I = {i} and J = {j}"))
-            .help("a joint connects two parts");
+            .help("the two markers belong on different parts");
     }
 }
 

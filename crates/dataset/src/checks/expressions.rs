@@ -13,6 +13,13 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         .single_forces
         .iter()
         .map(|element| &element.function);
+    let vectors = [
+        &dataset.vector_forces,
+        &dataset.vector_torques,
+        &dataset.general_forces,
+    ];
+    let vectors = vectors.into_iter().flat_map(|list| list.iter());
+    let vectors = vectors.flat_map(|element| element.components.iter().flatten());
     let variables = dataset.variables.iter().map(|element| &element.function);
     let requests = dataset
         .requests
@@ -21,16 +28,22 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
             RequestKind::Functions(functions) => functions.as_slice(),
             _ => &[],
         });
-    let moving = constraints.chain(motions).chain(forces).chain(variables);
+    let moving = constraints
+        .chain(motions)
+        .chain(forces)
+        .chain(vectors)
+        .chain(variables);
     let mut missing = Vec::new();
     for expression in moving {
         find_missing(dataset, expression, &mut missing);
         friction(expression, Place::Motion, diagnostics);
+        floating(dataset, expression, diagnostics);
     }
     let sensors = dataset.sensors.iter().map(|element| &element.function);
     for expression in requests.flatten().chain(sensors) {
         find_missing(dataset, expression, &mut missing);
         friction(expression, Place::Output, diagnostics);
+        floating(dataset, expression, diagnostics);
     }
     report(dataset, missing, diagnostics);
 }
@@ -45,7 +58,43 @@ pub(crate) fn check(
     find_missing(dataset, expression, &mut missing);
     let complete = missing.is_empty();
     report(dataset, missing, diagnostics);
-    friction(expression, Place::Motion, diagnostics) && complete
+    let placed = floating(dataset, expression, diagnostics);
+    friction(expression, Place::Motion, diagnostics) && complete && placed
+}
+
+/// Reports floating markers in functions other than those of the forces that act on them; returns
+/// whether there are none.
+fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagnostics) -> bool {
+    use Function as F;
+    let mut right = true;
+    expression.root.visit(&mut |node| {
+        let Expr::Call {
+            function,
+            arguments,
+            span,
+        } = node
+        else {
+            return;
+        };
+        let of_forces = matches!(
+            function,
+            F::Fx | F::Fy | F::Fz | F::Fm | F::Tx | F::Ty | F::Tz | F::Tm | F::Fxyz | F::Txyz
+        );
+        for (position, argument) in arguments.iter().enumerate() {
+            let of_marker = matches!(
+                function.argument_kind(position),
+                ArgumentKind::Marker | ArgumentKind::MarkerOrGround
+            );
+            let id = argument.as_id().filter(|_| of_marker);
+            let marker = id.and_then(|id| dataset.markers.by_id(id));
+            let end = of_forces && position < 2;
+            if let Some(marker) = marker.filter(|marker| marker.floating && !end) {
+                right = false;
+                references::report_floating(marker.header.id, *span, diagnostics);
+            }
+        }
+    });
+    right
 }
 
 /// What an expression belongs to.
@@ -147,6 +196,12 @@ fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
         ElementKind::Motion => dataset.motions.position(id),
         ElementKind::SingleForce => dataset.single_forces.position(id),
         ElementKind::SpringDamper => dataset.spring_dampers.position(id),
+        ElementKind::VectorForce => dataset.vector_forces.position(id),
+        ElementKind::VectorTorque => dataset.vector_torques.position(id),
+        ElementKind::GeneralForce => dataset.general_forces.position(id),
+        ElementKind::Bushing => dataset.bushings.position(id),
+        ElementKind::Field => dataset.fields.position(id),
+        ElementKind::Beam => dataset.beams.position(id),
         ElementKind::Variable => dataset.variables.position(id),
         ElementKind::Friction => dataset.frictions.position(id),
         ElementKind::PlantInput => dataset.plant_inputs.position(id),
@@ -163,6 +218,12 @@ const fn statement(element: ElementKind) -> &'static str {
         ElementKind::Motion => "MOTION",
         ElementKind::SingleForce => "SFORCE",
         ElementKind::SpringDamper => "SPRINGDAMPER",
+        ElementKind::VectorForce => "VFORCE",
+        ElementKind::VectorTorque => "VTORQUE",
+        ElementKind::GeneralForce => "GFORCE",
+        ElementKind::Bushing => "BUSHING",
+        ElementKind::Field => "FIELD",
+        ElementKind::Beam => "BEAM",
         ElementKind::Variable => "VARIABLE",
         ElementKind::Friction => "FRICTION",
         ElementKind::PlantInput => "PINPUT",

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{Dataset, Element, Elements};
 use crate::source::Span;
-use crate::statements::{Builder, Target};
+use crate::statements::{Builder, Reference, Target};
 use std::collections::HashMap;
 
 /// Reports the identifiers that name nothing.
@@ -13,6 +13,7 @@ pub(super) fn check(builder: &Builder, diagnostics: &mut Diagnostics) {
     let mut known: HashMap<Target, Vec<u32>> = HashMap::new();
     for reference in &builder.references {
         if exists(dataset, reference.target, reference.id) {
+            floating(dataset, reference, diagnostics);
             continue;
         }
         let ids = known
@@ -27,6 +28,32 @@ pub(super) fn check(builder: &Builder, diagnostics: &mut Diagnostics) {
             nearest(ids, reference.id),
         );
     }
+}
+
+/// Reports a floating marker where one with a place of its own is needed, and the other way round.
+fn floating(dataset: &Dataset, reference: &Reference, diagnostics: &mut Diagnostics) {
+    let Some(marker) = dataset.markers.by_id(reference.id) else {
+        return;
+    };
+    let (id, span) = (reference.id, reference.span);
+    match reference.target {
+        Target::Marker if marker.floating => report_floating(id, span, diagnostics),
+        Target::FloatingMarker if !marker.floating => {
+            let message = format!("JFLOAT needs a floating marker, which MARKER/{id} is not");
+            diagnostics
+                .error(Code::InvalidConnection, span, message)
+                .help(format!("add FLOATING to MARKER/{id}, or name another"));
+        }
+        _ => {}
+    }
+}
+
+/// Reports a floating marker where one with a place of its own is needed.
+pub(super) fn report_floating(id: u32, span: Span, diagnostics: &mut Diagnostics) {
+    let message = format!("MARKER/{id} is FLOATING, so it has no place of its own");
+    diagnostics
+        .error(Code::InvalidConnection, span, message)
+        .help("name marker I of its force, where it stands, or one on the same part");
 }
 
 /// Reports one identifier that names nothing.
@@ -46,7 +73,9 @@ fn exists(dataset: &Dataset, target: Target, id: u32) -> bool {
     match target {
         Target::Part => dataset.parts.position(id).is_some(),
         Target::PointMass => dataset.point_masses.position(id).is_some(),
-        Target::Marker => dataset.markers.position(id).is_some(),
+        Target::Marker | Target::FloatingMarker | Target::AnyMarker => {
+            dataset.markers.position(id).is_some()
+        }
         Target::Joint => dataset.joints.position(id).is_some(),
         Target::Variable => dataset.variables.position(id).is_some(),
     }
@@ -56,7 +85,7 @@ fn sorted_ids(dataset: &Dataset, target: Target) -> Vec<u32> {
     match target {
         Target::Part => sorted(&dataset.parts),
         Target::PointMass => sorted(&dataset.point_masses),
-        Target::Marker => sorted(&dataset.markers),
+        Target::Marker | Target::FloatingMarker | Target::AnyMarker => sorted(&dataset.markers),
         Target::Joint => sorted(&dataset.joints),
         Target::Variable => sorted(&dataset.variables),
     }

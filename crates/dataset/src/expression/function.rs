@@ -13,6 +13,18 @@ pub enum ElementKind {
     SingleForce,
     /// SPRINGDAMPER.
     SpringDamper,
+    /// VFORCE.
+    VectorForce,
+    /// VTORQUE.
+    VectorTorque,
+    /// GFORCE.
+    GeneralForce,
+    /// BUSHING.
+    Bushing,
+    /// FIELD.
+    Field,
+    /// BEAM.
+    Beam,
     /// VARIABLE.
     Variable,
     /// FRICTION.
@@ -168,13 +180,13 @@ functions! {
     Spdp "SPDP" 3 [Element(E::SpringDamper), Integer, Integer, MarkerOrGround] 4;
     Ptcv "PTCV" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
     Cvcv "CVCV" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
-    Vforce "VFORCE" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
-    Vtorq "VTORQ" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
-    Gforce "GFORCE" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
+    Vforce "VFORCE" 3 [Element(E::VectorForce), Integer, Integer, MarkerOrGround] 4;
+    Vtorq "VTORQ" 3 [Element(E::VectorTorque), Integer, Integer, MarkerOrGround] 4;
+    Gforce "GFORCE" 3 [Element(E::GeneralForce), Integer, Integer, MarkerOrGround] 4;
     Nforce "NFORCE" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
-    Bush "BUSH" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
-    Field "FIELD" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
-    Beam "BEAM" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
+    Bush "BUSH" 3 [Element(E::Bushing), Integer, Integer, MarkerOrGround] 4;
+    Field "FIELD" 3 [Element(E::Field), Integer, Integer, MarkerOrGround] 4;
+    Beam "BEAM" 3 [Element(E::Beam), Integer, Integer, MarkerOrGround] 4;
     Contact "CONTACT" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4;
     Friction "FRICTION" 2 [Element(E::Friction), Integer] 2;
     // Elements.

@@ -18,6 +18,18 @@ pub enum Switchable {
     SingleForce,
     /// SPRINGDAMPER.
     SpringDamper,
+    /// VFORCE.
+    VectorForce,
+    /// VTORQUE.
+    VectorTorque,
+    /// GFORCE.
+    GeneralForce,
+    /// BUSHING.
+    Bushing,
+    /// FIELD.
+    Field,
+    /// BEAM.
+    Beam,
     /// FRICTION.
     Friction,
     /// SENSOR.
@@ -26,13 +38,19 @@ pub enum Switchable {
 
 impl Switchable {
     /// Every type.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 14] = [
         Self::Joint,
         Self::Primitive,
         Self::Motion,
         Self::Constraint,
         Self::SingleForce,
         Self::SpringDamper,
+        Self::VectorForce,
+        Self::VectorTorque,
+        Self::GeneralForce,
+        Self::Bushing,
+        Self::Field,
+        Self::Beam,
         Self::Friction,
         Self::Sensor,
     ];
@@ -47,6 +65,12 @@ impl Switchable {
             Self::Constraint => "GCON",
             Self::SingleForce => "SFORCE",
             Self::SpringDamper => "SPRINGDAMPER",
+            Self::VectorForce => "VFORCE",
+            Self::VectorTorque => "VTORQUE",
+            Self::GeneralForce => "GFORCE",
+            Self::Bushing => "BUSHING",
+            Self::Field => "FIELD",
+            Self::Beam => "BEAM",
             Self::Friction => "FRICTION",
             Self::Sensor => "SENSOR",
         }

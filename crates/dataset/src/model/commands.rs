@@ -2,6 +2,7 @@
 
 use super::{
     Activity, Effect, Equilibrium, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta,
+    Switchable,
 };
 use crate::expression::Expression;
 use crate::source::Span;
@@ -126,6 +127,15 @@ pub enum ChangeKind {
         id: u32,
         /// FUNCTION.
         function: Expression,
+    },
+    /// VFORCE, VTORQUE or GFORCE.
+    VectorForce {
+        /// Which of the three.
+        kind: Switchable,
+        /// Identifier.
+        id: u32,
+        /// FX, FY, FZ, TX, TY and TZ; `None` leaves one as it is.
+        components: Box<[Option<Expression>; 6]>,
     },
     /// MOTION: a new function of the same level.
     Motion {

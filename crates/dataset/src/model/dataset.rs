@@ -1,10 +1,10 @@
 //! The whole model.
 
 use super::{
-    Elements, Equilibrium, Friction, GeneralConstraint, Graphics, InitialConditions, Integrator,
-    Joint, JointPrimitive, Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass,
-    Preferences, Request, ResultsOptions, Sensor, SingleForce, SpringDamper, Switchable, Units,
-    Variable,
+    Beam, Bushing, Elements, Equilibrium, Field, Friction, GeneralConstraint, Graphics,
+    InitialConditions, Integrator, Joint, JointPrimitive, Kinematics, Marker, Motion,
+    OutputOptions, Part, PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor,
+    SingleForce, SpringDamper, Switchable, Units, Variable, VectorForce,
 };
 use std::collections::BTreeSet;
 
@@ -39,6 +39,18 @@ pub struct Dataset {
     pub single_forces: Elements<SingleForce>,
     /// SPRINGDAMPER.
     pub spring_dampers: Elements<SpringDamper>,
+    /// VFORCE.
+    pub vector_forces: Elements<VectorForce>,
+    /// VTORQUE.
+    pub vector_torques: Elements<VectorForce>,
+    /// GFORCE.
+    pub general_forces: Elements<VectorForce>,
+    /// BUSHING.
+    pub bushings: Elements<Bushing>,
+    /// FIELD.
+    pub fields: Elements<Field>,
+    /// BEAM.
+    pub beams: Elements<Beam>,
     /// VARIABLE.
     pub variables: Elements<Variable>,
     /// PINPUT.

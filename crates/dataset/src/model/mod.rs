@@ -6,6 +6,7 @@
 mod activity;
 mod commands;
 mod dataset;
+mod elastic;
 mod elements;
 mod force;
 mod friction;
@@ -17,6 +18,7 @@ mod sensor;
 mod settings;
 mod units;
 mod variable;
+mod vector_force;
 
 pub use activity::{Activity, Selection, Switchable};
 pub use commands::{
@@ -24,6 +26,7 @@ pub use commands::{
     SimulationKind,
 };
 pub use dataset::Dataset;
+pub use elastic::{Beam, BeamDamping, Bushing, Field};
 pub use elements::{Element, Elements, Header};
 pub use force::{ForceDirection, SingleForce, SpringDamper};
 pub(crate) use friction::Least;
@@ -44,3 +47,4 @@ pub use settings::{
 };
 pub use units::{ForceUnit, LengthUnit, MassUnit, TimeUnit, Units};
 pub use variable::{PlantPort, Variable};
+pub use vector_force::VectorForce;

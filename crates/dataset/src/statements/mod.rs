@@ -1,5 +1,6 @@
 //! The statements of the language: one table, and one reader for each that is simulated.
 
+mod elastic;
 mod force;
 mod friction;
 mod joint;
@@ -11,6 +12,7 @@ mod settings;
 mod table;
 mod units;
 mod variable;
+mod vector_force;
 
 pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
@@ -20,6 +22,10 @@ pub(crate) use settings::{EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, equilibrium
 pub(crate) use table::{Action, STATEMENTS};
 pub(crate) use units::{GRAVITY_KEYWORDS, gravity};
 pub(crate) use variable::KEYWORDS as VARIABLE_KEYWORDS;
+pub(crate) use vector_force::{
+    FORCE_KEYWORDS as VFORCE_KEYWORDS, GENERAL_KEYWORDS as GFORCE_KEYWORDS,
+    TORQUE_KEYWORDS as VTORQUE_KEYWORDS, components,
+};
 
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{Dataset, Element, Elements, FrictionArguments};
@@ -31,7 +37,12 @@ use crate::source::Span;
 pub(crate) enum Target {
     Part,
     PointMass,
+    /// A marker with a place of its own.
     Marker,
+    /// A marker that stands where marker I of its force stands.
+    FloatingMarker,
+    /// A marker of either sort.
+    AnyMarker,
     Joint,
     Variable,
 }
@@ -41,7 +52,7 @@ impl Target {
         match self {
             Self::Part => "PART",
             Self::PointMass => "POINT_MASS",
-            Self::Marker => "MARKER",
+            Self::Marker | Self::FloatingMarker | Self::AnyMarker => "MARKER",
             Self::Joint => "JOINT",
             Self::Variable => "VARIABLE",
         }

@@ -87,11 +87,16 @@ pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
         }
         return;
     }
+    // Forces act on floating markers, too.
+    let ends = match kind {
+        RequestKind::Force => Target::AnyMarker,
+        _ => Target::Marker,
+    };
     let request = Request {
         header: reading.header(),
         kind,
-        i: builder.refer(reading, "I", Target::Marker),
-        j: builder.refer(reading, "J", Target::Marker),
+        i: builder.refer(reading, "I", ends),
+        j: builder.refer(reading, "J", ends),
         rm: builder.refer(reading, "RM", Target::Marker),
         comment: reading.text("COMMENT"),
         title: reading.text("TITLE"),

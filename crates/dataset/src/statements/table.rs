@@ -1,7 +1,10 @@
 //! The table of statements.
 
 use super::Builder;
-use super::{force, friction, joint, motion, part, request, sensor, settings, units, variable};
+use super::{
+    elastic, force, friction, joint, motion, part, request, sensor, settings, units, variable,
+    vector_force,
+};
 use crate::keywords::Keyword;
 use crate::names::Name;
 use crate::reading::Reading;
@@ -93,6 +96,27 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         force::SPRING_KEYWORDS,
         force::spring_damper,
     ),
+    read(
+        "VFORCE",
+        "VF",
+        vector_force::FORCE_KEYWORDS,
+        vector_force::force,
+    ),
+    read(
+        "VTORQUE",
+        "VT",
+        vector_force::TORQUE_KEYWORDS,
+        vector_force::torque,
+    ),
+    read(
+        "GFORCE",
+        "GF",
+        vector_force::GENERAL_KEYWORDS,
+        vector_force::general,
+    ),
+    read("BUSHING", "BU", elastic::BUSHING_KEYWORDS, elastic::bushing),
+    read("FIELD", "FI", elastic::FIELD_KEYWORDS, elastic::field),
+    read("BEAM", "BE", elastic::BEAM_KEYWORDS, elastic::beam),
     read("VARIABLE", "VAR", variable::KEYWORDS, variable::variable),
     read(
         "PINPUT",
@@ -171,8 +195,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         "it only reports; write a REQUEST for each element",
     ),
     unsupported("ADAMS_BUSHING", "ADAMS_BUSHING"),
-    unsupported("BEAM", "BE"),
-    unsupported("BUSHING", "BU"),
     unsupported("CONTACT", "CON"),
     unsupported("COUPLER", "COU"),
     unsupported("CVCV", "CVCV"),
@@ -181,10 +203,8 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("FE_LOAD", "FE_L"),
     unsupported("FE_NODE", "FE_N"),
     unsupported("FE_PART", "FE_P"),
-    unsupported("FIELD", "FI"),
     unsupported("FLEX_BODY", "FL"),
     unsupported("GEAR", "GE"),
-    unsupported("GFORCE", "GF"),
     unsupported("GSE", "GS"),
     unsupported("LSE", "LSE"),
     unsupported("MFORCE", "MF"),
@@ -193,6 +213,4 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("TFSISO", "TF"),
     unsupported("TIRE", "TIRE"),
     unsupported("UCON", "UC"),
-    unsupported("VFORCE", "VF"),
-    unsupported("VTORQUE", "VT"),
 ];

@@ -1,14 +1,69 @@
-//! SFORCE and SPRINGDAMPER to single-component forces.
+//! Applied forces to single-component forces; SFORCE, SPRINGDAMPER and those given by components.
 
-use dataset::{Expr, ForceDirection, Function, SpringDamper};
+use std::ops::Range;
+
+use dataset::{
+    Dataset, Element, Elements, Expr, ForceDirection, Function, SpringDamper, Switchable,
+    VectorForce,
+};
 use mechanics::expression::{Binary, Input, Operation, Program, Unary};
-use mechanics::model::{ForceKind, Model, SingleForce};
+use mechanics::model::{ForceKind, Label, Model, SingleForce};
 
 use super::expression::Reads;
 use super::{Lowering, label};
 
+/// The applied forces in the order of the model's list: type, name in results, and number of
+/// components of an element.
+pub(crate) const APPLIED: [(Switchable, &str, usize); 8] = [
+    (Switchable::SingleForce, "Single_Component_Force", 1),
+    (Switchable::SpringDamper, "Spring_Damper", 1),
+    (Switchable::VectorForce, "Vector_Force", 3),
+    (Switchable::VectorTorque, "Vector_Torque", 3),
+    (Switchable::GeneralForce, "General_Force", 6),
+    (Switchable::Bushing, "Bushing", 6),
+    (Switchable::Field, "Field", 6),
+    (Switchable::Beam, "Beam", 6),
+];
+
+/// Headers of the elements of one type of applied force, in the order of the dataset.
+pub(crate) fn applied_headers(dataset: &Dataset, kind: Switchable) -> Vec<&dataset::Header> {
+    fn headers<T: Element>(list: &Elements<T>) -> Vec<&dataset::Header> {
+        list.iter().map(Element::header).collect()
+    }
+    match kind {
+        Switchable::SingleForce => headers(&dataset.single_forces),
+        Switchable::SpringDamper => headers(&dataset.spring_dampers),
+        Switchable::VectorForce => headers(&dataset.vector_forces),
+        Switchable::VectorTorque => headers(&dataset.vector_torques),
+        Switchable::GeneralForce => headers(&dataset.general_forces),
+        Switchable::Bushing => headers(&dataset.bushings),
+        Switchable::Field => headers(&dataset.fields),
+        Switchable::Beam => headers(&dataset.beams),
+        Switchable::Joint
+        | Switchable::Primitive
+        | Switchable::Motion
+        | Switchable::Constraint
+        | Switchable::Friction
+        | Switchable::Sensor => Vec::new(),
+    }
+}
+
+/// Places among the model's forces of the components of an applied force, which is at `position`
+/// among those of its type.
+pub(super) fn applied_places(dataset: &Dataset, kind: Switchable, position: usize) -> Range<usize> {
+    let mut first = 0;
+    for (other, _, components) in APPLIED {
+        if other == kind {
+            let start = first + position * components;
+            return start..start + components;
+        }
+        first += components * applied_headers(dataset, other).len();
+    }
+    first..first
+}
+
 impl Lowering<'_> {
-    /// Single-component forces in the order of the dataset, then spring-dampers.
+    /// All applied forces, in the order of [`APPLIED`] and of the dataset.
     pub(super) fn forces(&mut self, model: &mut Model) {
         let dataset = self.dataset;
         for force in &dataset.single_forces {
@@ -39,6 +94,38 @@ impl Lowering<'_> {
                 },
                 function,
             });
+        }
+        for force in &dataset.vector_forces {
+            self.components(model, "VFORCE", force, 0..3);
+        }
+        for force in &dataset.vector_torques {
+            self.components(model, "VTORQUE", force, 3..6);
+        }
+        for force in &dataset.general_forces {
+            self.components(model, "GFORCE", force, 0..6);
+        }
+        self.elastic_forces(model);
+    }
+
+    /// Components of a VFORCE, VTORQUE or GFORCE, three forces and then three torques along RM.
+    fn components(
+        &mut self,
+        model: &mut Model,
+        statement: &'static str,
+        force: &VectorForce,
+        components: Range<usize>,
+    ) {
+        let ends = [force.i, force.j_float, force.rm].map(|id| self.marker_place(id));
+        for component in components {
+            let function = match &force.components[component] {
+                Some(function) => self.function(force, statement, Reads::Velocities, function),
+                None => Some(Program::constant(0.0)),
+            };
+            let Some(function) = function else { continue };
+            let label = label(statement, &force.header);
+            model
+                .forces
+                .push(component_force(label, ends, component, function));
         }
     }
 
@@ -84,5 +171,27 @@ impl Lowering<'_> {
         let preload = constant(&mut program, spring.preload);
         binary(&mut program, Binary::Add, resisting, preload);
         program
+    }
+}
+
+/// Component 0 to 5 (three forces, three torques) on marker I along the axes of the marker `frame`.
+pub(super) fn component_force(
+    label: Label,
+    [i, j, frame]: [usize; 3],
+    component: usize,
+    function: Program,
+) -> SingleForce {
+    let axis = component % 3;
+    let kind = if component < 3 {
+        ForceKind::AlongAxis { frame, axis }
+    } else {
+        ForceKind::AboutAxis { frame, axis }
+    };
+    SingleForce {
+        label,
+        i,
+        j,
+        kind,
+        function,
     }
 }

@@ -1,11 +1,12 @@
 //! From the typed dataset to the mechanical model.
 //!
 //! Elements keep their order: bodies are the moving parts and then the point masses, joints the
-//! joints and then the primitives, forces the single-component forces and then the spring-dampers.
+//! joints and then the primitives, forces as `forces::APPLIED` says, by components.
 //! Markers keep their places, and a marker at the origin of ground follows them.
 
 mod bodies;
 mod composite;
+mod elastic;
 mod expression;
 mod forces;
 mod frame;
@@ -23,6 +24,7 @@ use mechanics::Owner;
 use mechanics::model::{Element, Label, Model};
 use nalgebra::Vector3;
 
+pub(crate) use forces::{APPLIED, applied_headers};
 pub(crate) use measures::Measures;
 pub(crate) use outputs::{Column, Outputs, Unit};
 pub(crate) use results::{ForceElement, Side};
@@ -161,16 +163,17 @@ impl Lowering<'_> {
                     Element::Joint(dataset.joints.len() + dataset.primitives.position(id)?)
                 }
                 Switchable::Constraint => Element::Constraint(dataset.constraints.position(id)?),
-                Switchable::SingleForce => Element::Force(dataset.single_forces.position(id)?),
-                Switchable::SpringDamper => {
-                    let place = dataset.spring_dampers.position(id)?;
-                    Element::Force(dataset.single_forces.len() + place)
-                }
                 Switchable::Friction => Element::Friction(dataset.frictions.position(id)?),
-                // Motions rest with their joints, too; sensors are no part of the model.
-                Switchable::Motion | Switchable::Sensor => return None,
+                // Motions rest with their joints, too; sensors are no part of the model, and forces
+                // follow below.
+                _ => return None,
             })
         };
+        let forces = APPLIED.into_iter().flat_map(|(kind, ..)| {
+            let headers = applied_headers(dataset, kind).into_iter().enumerate();
+            let resting = headers.filter(move |(_, header)| !dataset.is_active(kind, header.id));
+            resting.flat_map(move |(place, _)| forces::applied_places(dataset, kind, place))
+        });
         let motions = dataset.motions.iter().zip(&self.motions);
         let resting = motions
             .filter(|(motion, _)| !dataset.is_active(Switchable::Motion, motion.header.id))
@@ -180,7 +183,10 @@ impl Lowering<'_> {
                 Owner::Joint(_) => None,
             });
         let switched = dataset.inactive.iter().filter_map(place);
-        switched.chain(resting).collect()
+        switched
+            .chain(resting)
+            .chain(forces.map(Element::Force))
+            .collect()
     }
 
     fn error(&mut self, code: Code, span: Span, message: String, help: Option<&str>) {

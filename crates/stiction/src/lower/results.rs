@@ -1,10 +1,11 @@
 //! Functions whose value is part of the solution: reactions, forces and friction.
 
-use dataset::{Expr, Function};
+use dataset::{Dataset, Expr, Function, Switchable};
 use mechanics::Owner;
 use nalgebra::Vector3;
 
 use super::Lowering;
+use super::forces::{applied_headers, applied_places};
 use crate::wrenches::Wrenches;
 
 /// An element that applies a force and a torque between two markers.
@@ -12,10 +13,26 @@ use crate::wrenches::Wrenches;
 pub(crate) enum ForceElement {
     /// A joint, primitive or motion.
     Constraint(Owner),
-    /// A single-component force or spring-damper, by its place among the model's forces.
-    Applied(usize),
+    /// An applied force, by the places of its components among the model's forces.
+    Applied {
+        /// The first one.
+        first: usize,
+        /// How many follow one another.
+        count: usize,
+    },
     /// Friction, by its place among the model's frictions.
     Friction(usize),
+}
+
+impl ForceElement {
+    /// The applied force at `position` among those of its type.
+    pub(crate) fn applied(dataset: &Dataset, kind: Switchable, position: usize) -> Self {
+        let places = applied_places(dataset, kind, position);
+        Self::Applied {
+            first: places.start,
+            count: places.len(),
+        }
+    }
 }
 
 /// On which of its two markers an element's force is asked for.
@@ -81,6 +98,12 @@ impl ResultSource {
                 axes,
             })
         };
+        let applied = |kind| {
+            let id = number(0)?;
+            let headers = applied_headers(dataset, kind);
+            let position = headers.iter().position(|header| header.id == id)?;
+            Some(ForceElement::applied(dataset, kind, position))
+        };
         let element = match function {
             F::Fm => return between(0, lowering.ground),
             F::Fx => return between(1, marker(2)),
@@ -110,11 +133,14 @@ impl ResultSource {
                 let motion = dataset.motions.position(number(0)?)?;
                 ForceElement::Constraint((*lowering.motions.get(motion)?)?)
             }
-            F::Sforce => ForceElement::Applied(dataset.single_forces.position(number(0)?)?),
-            F::Spdp => {
-                let spring = dataset.spring_dampers.position(number(0)?)?;
-                ForceElement::Applied(dataset.single_forces.len() + spring)
-            }
+            F::Sforce => applied(Switchable::SingleForce)?,
+            F::Spdp => applied(Switchable::SpringDamper)?,
+            F::Vforce => applied(Switchable::VectorForce)?,
+            F::Vtorq => applied(Switchable::VectorTorque)?,
+            F::Gforce => applied(Switchable::GeneralForce)?,
+            F::Bush => applied(Switchable::Bushing)?,
+            F::Field => applied(Switchable::Field)?,
+            F::Beam => applied(Switchable::Beam)?,
             _ => return None,
         };
         let side = match number(1)? {

@@ -6,6 +6,7 @@
 )]
 
 mod adams;
+mod applied_forces;
 mod commands;
 mod corpus;
 mod delta_robot;
