@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use results::{DataKind, Entity, Header, Layout, ResWriter, SurfaceMotion, UnitNames};
 use stiction::explain::{ExplainError, FrictionHistory, RunResults, overview};
-use stiction::{Project, RunOptions, Session};
+use stiction::{Outcome, Project, RunOptions, Session};
 
+use crate::runs::{Run, run_commands};
 use crate::shared::{GoOn, scratch_folder};
 
 /// A folder with the results of an example.
@@ -256,4 +257,84 @@ fn what_cannot_be_explained_is_said() {
         Err(ExplainError::NoFriction(_))
     ));
     std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// A rotor whose weight hangs 0.3 m from its hinge, pushed along the axis, spinning; `more` are
+/// arguments of its FRICTION.
+fn rotor(more: &str) -> Run {
+    let model = format!(
+        "A rotor on a hinge
+UNITS/SYSTEM=MKS
+ACCGRAV/JGRAV=-10
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=4, CM=20, IP=1, 1, 1, WZ=20
+MARKER/20, PART=2, QP=0, 0, 0.3
+MARKER/21, PART=2
+JOINT/1, REVOLUTE, I=21, J=1
+SFORCE/1, TRANSLATIONAL, I=21, J=1, ACTIONONLY, FUNCTION=50
+FRICTION/5, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, PIN_RADIUS=0.05, FRICTION_ARM=0.08
+, BENDING_REACTION_ARM=0.1, FRICTION_TORQUE_PRELOAD=0.5{more}
+"
+    );
+    let run = run_commands(&model, "\nSIMULATE/DYNAMIC, END=1, STEPS=10\n");
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    run
+}
+
+#[test]
+fn shares_are_those_of_the_load_s_formula() {
+    // The load of a revolute joint (spec 9.3): pin radius · radial force 40 N + friction arm · axial
+    // force 50 N, and pin radius over bending arm · moment 12 N m; coefficient 0.2, preload 0.5 N m.
+    let parts = [0.05 * 40.0 + 0.08 * 50.0, 0.05 / 0.1 * 12.0, 0.0];
+    let causes = [0.5, 0.2 * parts[0], 0.2 * parts[1], 0.0];
+    let torque = 0.5 + 0.2 * 12.0;
+    let run = rotor("");
+    let value = |name: &str| {
+        let values = run.results.get(&format!("FRICTION_5{name}")).unwrap();
+        values[values.len() / 2]
+    };
+    let close = |name: &str, expected: f64| {
+        // The reaction of an instant is exact but for rounding.
+        assert!(
+            (value(name) - expected).abs() < 1e-12 * torque,
+            "{name}: {} {expected}",
+            value(name)
+        );
+    };
+    for (name, expected) in ["LOAD_REACTION", "LOAD_BENDING", "LOAD_TORSION"]
+        .iter()
+        .zip(parts)
+    {
+        close(&format!("_DETAIL.{name}"), expected);
+    }
+    for (name, expected) in ["BY_PRELOAD", "BY_REACTION", "BY_BENDING", "BY_TORSION"]
+        .iter()
+        .zip(causes)
+    {
+        close(&format!("_DETAIL.{name}"), expected);
+    }
+    close(".TZ", -torque);
+    close("_DETAIL.LIMITED", 0.0);
+    // Power is torque times the angular velocity, surface velocity over the pin radius.
+    close("_DETAIL.POWER", torque * value(".WZ") / 0.05);
+    // Deceleration is 2.9 N m on 1 kg m².
+    let energy = 0.5 * (20.0_f64.powi(2) - (20.0 - torque).powi(2));
+    let taken = run.report.frictions[0].energy;
+    assert!((taken - energy).abs() < 1e-4 * energy, "{taken} {energy}");
+
+    // A limit holds the part that the load causes; what makes it stays what it was.
+    let limited = rotor(", MAX_FRICTION_TORQUE=1.5");
+    let last = |name: &str| {
+        *limited
+            .results
+            .get(&format!("FRICTION_5{name}"))
+            .unwrap()
+            .last()
+            .unwrap()
+    };
+    assert_eq!(last("_DETAIL.LIMITED"), 1.0);
+    assert!((last(".TZ") + 2.0).abs() < 1e-12, "{}", last(".TZ"));
+    assert!((last("_DETAIL.BY_REACTION") - causes[1]).abs() < 1e-12);
+    assert_eq!(limited.report.frictions[0].clipped, 11);
 }
