@@ -7,6 +7,7 @@ use mechanics::model::{FrictionJoint, Law, Model};
 use mechanics::rotation::Quaternion;
 use nalgebra::Vector3;
 use proptest::prelude::*;
+use verification::{Case, Section, check};
 
 use crate::builder::v;
 use crate::runs::{assembled, energy, every, go_on, run, settings};
@@ -167,20 +168,31 @@ proptest! {
     }
 }
 
-#[test]
-fn millimetres_and_metres_move_alike() {
-    for model in models() {
-        let plain = centres(model.clone());
-        let there = centres(in_millimetres(model));
-        let difference = largest(&there, |k| 1e3 * plain[k]) * 1e-3;
-        println!("millimetres: difference {difference:.1e} m");
-        // The error test is relative to the model's length: the same steps, other rounding.
-        assert!(difference < ERROR, "{difference:e}");
+fn case(id: &'static str) -> Case<'static> {
+    Case {
+        section: Section::Integration,
+        id,
+        model: "a ball and a slider-crank with friction, 0.3 s, error tolerance 1e-8",
+        source: "the same model, stated otherwise",
+        covers: &[],
     }
 }
 
 #[test]
+fn millimetres_and_metres_move_alike() {
+    let mut worst = 0.0_f64;
+    for model in models() {
+        let plain = centres(model.clone());
+        let there = centres(in_millimetres(model));
+        worst = worst.max(largest(&there, |k| 1e3 * plain[k]) * 1e-3);
+    }
+    let why = "the error test is relative to the model's length: the same steps, other rounding";
+    check(&[case("millimetres").worst("centres in mm and in m [m]", worst, ERROR, why)]);
+}
+
+#[test]
 fn stops_on_the_way_change_little() {
+    let mut worst = 0.0_f64;
     for model in models() {
         let plain = centres(model.clone());
         let settings = settings(Formulation::Si2, ERROR, 0.01);
@@ -188,17 +200,16 @@ fn stops_on_the_way_change_little() {
         for end in every(END, 10) {
             go_on(&mut simulation, &[end], &settings, |_| {});
         }
-        let difference = largest(&plain, |k| simulation.state().centre(k));
-        println!("ten restarts: difference {difference:.1e} m");
-        // Creep and state go on exactly; the steps after each start are others.
-        assert!(difference < 100.0 * ERROR, "{difference:e}");
+        worst = worst.max(largest(&plain, |k| simulation.state().centre(k)));
     }
+    let why = "creep and state go on exactly; the steps after each start are others";
+    check(&[case("restarts").worst("centres with ten starts [m]", worst, 100.0 * ERROR, why)]);
 }
 
-#[test]
-fn friction_takes_energy() {
+/// Models that lose energy to friction, and their duration.
+fn dissipative() -> [(&'static str, Model, f64); 3] {
     let ball = Some((law(0.3, 0.25, 1e-2, 1e-4), 0.02));
-    let cases = [
+    [
         ("ball", ball_pendulum(1.0, v(0.5, 2.0, 8.0), ball), 4.0),
         (
             "slider-crank",
@@ -206,8 +217,50 @@ fn friction_takes_energy() {
             2.5,
         ),
         ("four-bar", four_bar(Some(law(0.25, 0.2, 1e-2, 1e-4))), 3.5),
-    ];
-    for (name, model, end) in cases {
+    ]
+}
+
+/// What bodies lose, friction takes: the work of friction is integrated beside the motion.
+#[test]
+fn energy_balances() {
+    let mut claims = Vec::new();
+    for (name, model, end) in dissipative() {
+        let frictions = model.frictions.len();
+        let case = Case {
+            id: &format!("energy, {name}"),
+            model: "the mechanism with friction in its joints until most of its energy is gone",
+            source: "balance of kinetic energy, weight and the work of friction",
+            ..case("")
+        };
+        for (quantity, error, bound) in [
+            ("residual by energy taken, error tolerance 1e-4", 1e-4, 1e-2),
+            (
+                "residual by energy taken, error tolerance 1e-6",
+                1e-6,
+                2.2e-4,
+            ),
+            (
+                "residual by energy taken, error tolerance 1e-8",
+                1e-8,
+                4.7e-6,
+            ),
+        ] {
+            let mut simulation = assembled(model.clone());
+            let before = energy(&simulation.snapshot());
+            let settings = settings(Formulation::Si2, error, 0.01);
+            go_on(&mut simulation, &[end], &settings, |_| {});
+            let taken: f64 = simulation.state().works()[..frictions].iter().sum();
+            let residual = (before - energy(&simulation.snapshot()) - taken).abs() / taken;
+            let why = "a hundred times the tolerance 1e-4 for hundreds of steps; it falls as tolerance^(5/6)";
+            claims.push(case.worst(quantity, residual, bound, why));
+        }
+    }
+    check(&claims);
+}
+
+#[test]
+fn friction_takes_energy() {
+    for (name, model, end) in dissipative() {
         let (mut last, mut start, mut rise) = (f64::INFINITY, None, 0.0_f64);
         // What stuck surfaces may give back: at most their load times μ_s times Dm · 0.6875, the
         // integral of the quintic step, for each joint.

@@ -104,7 +104,7 @@ fn unbalanced_rotors() {
         let mut ours = Vec::new();
         let settings = settings(Formulation::Si2, 1e-11, 0.01);
         run(model, &times, &settings, |s| {
-            ours.push(s.state().velocities()[5])
+            ours.push(s.state().velocities()[5]);
         });
         let case = Case {
             section: Section::Joint,
