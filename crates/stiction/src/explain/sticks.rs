@@ -37,9 +37,10 @@ pub(super) fn intervals(records: &[Record<'_>]) -> Vec<StickInterval> {
             stuck: 0.0,
             sticks: 1,
         };
-        // Sticks that ended since the output before, the latest not counted.
-        let ended =
-            (usize::from(open.is_some()) + begun).saturating_sub(usize::from(record.sticking()));
+        // Sticks that have ended since the output before; one that goes on is not among them.
+        let ended = usize::from(open.is_some())
+            .saturating_add(begun)
+            .saturating_sub(usize::from(record.sticking()));
         let told = usize::from(begun > 0 && !record.sticking());
         let (time, stuck) = before.map_or((record.time(), 0.0), |b| (b.time(), b.stuck_time()));
         if ended > 1 || (ended == 1 && begun > 1) {
