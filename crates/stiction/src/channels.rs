@@ -1,8 +1,8 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
-//! Order: parts and point masses, joints, primitives, motions, general constraints, applied forces,
-//! variables, plant inputs and outputs, frictions, requests; last our own entities, one a friction,
-//! where readers that look for those of Adams do not meet them.
+//! Order: parts and point masses, joints, primitives, motions, general constraints, couplers, applied
+//! forces, variables, plant inputs and outputs, frictions, requests; last our own entities, one a
+//! friction, where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
 use mechanics::Owner;
@@ -11,9 +11,7 @@ use mechanics::rotation::to_euler_313;
 use results::{Component, Entity, Layout, LayoutError, Request, UnitNames};
 
 use crate::friction_detail;
-use crate::lower::{
-    APPLIED, Column, ForceElement, Lowered, Outputs, Unit, applied_headers, view_name,
-};
+use crate::lower::{APPLIED, Column, ForceElement, Lowered, Outputs, Unit, view_name};
 use crate::wrenches::Wrenches;
 
 /// The channels of a model.
@@ -70,10 +68,15 @@ impl Channels {
             let constraint = ForceElement::Constraint(Owner::General(place));
             push(&element.header, "GCON", "General_Constraint", constraint);
         }
-        for (kind, name, _) in APPLIED {
-            for (place, header) in applied_headers(dataset, kind).into_iter().enumerate() {
-                let force = ForceElement::applied(dataset, kind, place);
-                push(header, kind.statement(), name, force);
+        for (place, element) in dataset.couplers.iter().enumerate() {
+            let place = dataset.constraints.len() + place;
+            let constraint = ForceElement::Constraint(Owner::General(place));
+            push(&element.header, "COUPLER", "Coupler", constraint);
+        }
+        for applied in APPLIED {
+            for (header, places) in applied.elements(dataset) {
+                let force = ForceElement::applied(places);
+                push(header, applied.kind.statement(), applied.name, force);
             }
         }
         for element in &dataset.variables {

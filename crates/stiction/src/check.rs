@@ -54,6 +54,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("JOINT", dataset.joints.len()),
         ("JPRIM", dataset.primitives.len()),
         ("GCON", dataset.constraints.len()),
+        ("COUPLER", dataset.couplers.len()),
         ("MOTION", dataset.motions.len()),
         ("SFORCE", dataset.single_forces.len()),
         ("SPRINGDAMPER", dataset.spring_dampers.len()),

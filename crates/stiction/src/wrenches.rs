@@ -89,10 +89,10 @@ impl<'a> Wrenches<'a> {
     }
 
     /// Everything that acts at marker `i` between it and marker `j`; with `j` the implicit ground
-    /// marker (the last one) the forces that act on I alone.
+    /// marker the forces that act on I alone.
     pub(crate) fn between(&self, i: usize, j: usize) -> Wrench {
         let model = self.snapshot.model();
-        let alone = j + 1 == model.markers.len();
+        let alone = model.markers[j].id == 0;
         let constraints = (0..model.joints.len()).map(Owner::Joint);
         let constraints = constraints
             .chain((0..model.motions.len()).map(Owner::Motion))

@@ -65,6 +65,7 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         let name = format!("BEAM/{}", beam.header.id);
         two_markers(&name, beam.i, beam.j, beam.header.span, diagnostics);
     }
+    couplers(dataset, diagnostics);
     motions(dataset, diagnostics);
     parts(dataset, diagnostics);
 }
@@ -106,6 +107,35 @@ fn two_parts(
             .error(Code::InvalidConnection, span, message)
             .note(format!("I = {i} and J = {j}"))
             .help("the two markers belong on different parts");
+    }
+}
+
+/// Coupled joints have the coordinates that are coupled.
+fn couplers(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    for coupler in &dataset.couplers {
+        let name = format!("COUPLER/{}", coupler.header.id);
+        for freedom in &coupler.freedoms {
+            let Some(joint) = dataset.joints.by_id(freedom.joint) else {
+                continue;
+            };
+            if joint.kind.coordinate(freedom.rotation).is_some() {
+                continue;
+            }
+            let (id, kind) = (freedom.joint, joint.kind.keyword());
+            let (message, help) = match freedom.rotation {
+                None if joint.kind.rotates() => (
+                    format!("{name} does not say which coordinate of JOINT/{id} it couples"),
+                    "add TYPE, a list of R (rotation) and T (translation), one a joint",
+                ),
+                _ => (
+                    format!("{name} couples a freedom that JOINT/{id} has not: it is {kind}"),
+                    "REVOLUTE rotates, TRANSLATIONAL translates, CYLINDRICAL does both",
+                ),
+            };
+            diagnostics
+                .error(Code::NoSuchFreedom, coupler.header.span, message)
+                .help(help);
+        }
     }
 }
 

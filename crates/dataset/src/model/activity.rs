@@ -14,6 +14,8 @@ pub enum Switchable {
     Motion,
     /// GCON.
     Constraint,
+    /// COUPLER.
+    Coupler,
     /// SFORCE.
     SingleForce,
     /// SPRINGDAMPER.
@@ -38,11 +40,12 @@ pub enum Switchable {
 
 impl Switchable {
     /// Every type.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Joint,
         Self::Primitive,
         Self::Motion,
         Self::Constraint,
+        Self::Coupler,
         Self::SingleForce,
         Self::SpringDamper,
         Self::VectorForce,
@@ -63,6 +66,7 @@ impl Switchable {
             Self::Primitive => "JPRIM",
             Self::Motion => "MOTION",
             Self::Constraint => "GCON",
+            Self::Coupler => "COUPLER",
             Self::SingleForce => "SFORCE",
             Self::SpringDamper => "SPRINGDAMPER",
             Self::VectorForce => "VFORCE",

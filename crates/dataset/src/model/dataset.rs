@@ -1,7 +1,7 @@
 //! The whole model.
 
 use super::{
-    Beam, Bushing, Elements, Equilibrium, Field, Friction, GeneralConstraint, Graphics,
+    Beam, Bushing, Coupler, Elements, Equilibrium, Field, Friction, GeneralConstraint, Graphics,
     InitialConditions, Integrator, Joint, JointPrimitive, Kinematics, Marker, Motion,
     OutputOptions, Part, PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor,
     SingleForce, SpringDamper, Switchable, Units, Variable, VectorForce,
@@ -35,6 +35,8 @@ pub struct Dataset {
     pub motions: Elements<Motion>,
     /// GCON.
     pub constraints: Elements<GeneralConstraint>,
+    /// COUPLER.
+    pub couplers: Elements<Coupler>,
     /// SFORCE.
     pub single_forces: Elements<SingleForce>,
     /// SPRINGDAMPER.

@@ -102,6 +102,7 @@ elements!(
     super::Joint,
     super::JointPrimitive,
     super::GeneralConstraint,
+    super::Coupler,
     super::Motion,
     super::SingleForce,
     super::SpringDamper,

@@ -58,6 +58,23 @@ impl JointKind {
         matches!(self, Self::Revolute | Self::Cylindrical)
     }
 
+    /// The coordinate that is meant: true for the rotation, false for the displacement. Without
+    /// `rotation` it is the only one that there is; `None` where there is none such.
+    #[must_use]
+    pub fn coordinate(self, rotation: Option<bool>) -> Option<bool> {
+        let has = |rotation| {
+            if rotation {
+                self.rotates()
+            } else {
+                self.translates()
+            }
+        };
+        match rotation {
+            Some(rotation) => Some(rotation).filter(|rotation| has(*rotation)),
+            None => (has(true) != has(false)).then(|| has(true)),
+        }
+    }
+
     /// Whether the joint leaves displacement along `z_J` free as its coordinate.
     #[must_use]
     pub const fn translates(self) -> bool {

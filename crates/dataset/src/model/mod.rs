@@ -5,6 +5,7 @@
 
 mod activity;
 mod commands;
+mod coupler;
 mod dataset;
 mod elastic;
 mod elements;
@@ -25,6 +26,7 @@ pub use commands::{
     Change, ChangeKind, Command, CommandFile, CommandKind, FrictionArguments, Simulate,
     SimulationKind,
 };
+pub use coupler::{CoupledFreedom, Coupler};
 pub use dataset::Dataset;
 pub use elastic::{Beam, BeamDamping, Bushing, Field};
 pub use elements::{Element, Elements, Header};

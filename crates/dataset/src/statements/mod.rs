@@ -1,5 +1,6 @@
 //! The statements of the language: one table, and one reader for each that is simulated.
 
+mod coupler;
 mod elastic;
 mod force;
 mod friction;

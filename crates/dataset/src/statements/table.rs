@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::{
-    elastic, force, friction, joint, motion, part, request, sensor, settings, units, variable,
-    vector_force,
+    coupler, elastic, force, friction, joint, motion, part, request, sensor, settings, units,
+    variable, vector_force,
 };
 use crate::keywords::Keyword;
 use crate::names::Name;
@@ -88,6 +88,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     read("JOINT", "J", joint::JOINT_KEYWORDS, joint::joint),
     read("JPRIM", "JP", joint::PRIMITIVE_KEYWORDS, joint::primitive),
     read("GCON", "GC", joint::CONSTRAINT_KEYWORDS, joint::constraint),
+    read("COUPLER", "COU", coupler::KEYWORDS, coupler::coupler),
     read("MOTION", "MO", motion::KEYWORDS, motion::motion),
     read("SFORCE", "SF", force::SINGLE_KEYWORDS, force::single_force),
     read(
@@ -196,7 +197,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     ),
     unsupported("ADAMS_BUSHING", "ADAMS_BUSHING"),
     unsupported("CONTACT", "CON"),
-    unsupported("COUPLER", "COU"),
     unsupported("CVCV", "CVCV"),
     unsupported("DIFF", "DI"),
     unsupported("FEMDATA", "FEM"),

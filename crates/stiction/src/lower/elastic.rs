@@ -1,7 +1,7 @@
 //! BUSHING, FIELD and BEAM to components along the axes of J.
 
-use dataset::{Beam, BeamDamping, Bushing, Expr, Field, Function};
-use mechanics::expression::{Binary, Input, Operation, Program, Register};
+use dataset::{Beam, BeamDamping, Bushing, Field, Function};
+use mechanics::expression::{Binary, Operation, Program, Register};
 use mechanics::model::{Label, Model};
 
 use super::forces::component_force;
@@ -152,36 +152,20 @@ impl Lowering<'_> {
             for other in 0..6 {
                 let stiffness = linear.stiffness[component][other];
                 if stiffness != 0.0 {
-                    let measured = self.measured(&mut program, COORDINATES[other], linear);
+                    let measured =
+                        self.measured(&mut program, COORDINATES[other], linear.i, linear.j);
                     let free = constant(&mut program, linear.free[other]);
                     let stretch = binary(&mut program, Binary::Subtract, measured, free);
                     sum = less(&mut program, sum, stiffness, stretch);
                 }
                 let damping = linear.damping[component][other];
                 if damping != 0.0 {
-                    let rate = self.measured(&mut program, RATES[other], linear);
+                    let rate = self.measured(&mut program, RATES[other], linear.i, linear.j);
                     sum = less(&mut program, sum, damping, rate);
                 }
             }
             let force = component_force(label.clone(), [i, j, j], component, program);
             model.forces.push(force);
-        }
-    }
-
-    /// A coordinate or a rate of I in J.
-    fn measured(&mut self, program: &mut Program, function: Function, linear: &Linear) -> Register {
-        let [i, j] = [linear.i, linear.j].map(|id| Expr::Number(f64::from(id)));
-        // Marker i, marker j, the axes and the observer; functions with fewer markers read no more.
-        let arguments = [i, j.clone(), j.clone(), j];
-        let (dataset, ground) = (self.dataset, self.ground);
-        let marker = |id: Option<u32>| {
-            id.and_then(|id| dataset.markers.position(id))
-                .unwrap_or(ground)
-        };
-        match self.measures.of_call(function, &arguments, marker) {
-            Some(measure) => program.push(Operation::Input(Input::Measure(measure))),
-            // All of them are measures.
-            None => constant(program, f64::NAN),
         }
     }
 }

@@ -3,63 +3,134 @@
 use std::ops::Range;
 
 use dataset::{
-    Dataset, Element, Elements, Expr, ForceDirection, Function, SpringDamper, Switchable,
+    Dataset, Element, Elements, Expr, ForceDirection, Function, Header, SpringDamper, Switchable,
     VectorForce,
 };
-use mechanics::expression::{Binary, Input, Operation, Program, Unary};
+use mechanics::expression::{Binary, Input, Operation, Program, Register, Unary};
 use mechanics::model::{ForceKind, Label, Model, SingleForce};
 
 use super::expression::Reads;
 use super::{Lowering, label};
 
-/// The applied forces in the order of the model's list: type, name in results, and number of
-/// components of an element.
-pub(crate) const APPLIED: [(Switchable, &str, usize); 8] = [
-    (Switchable::SingleForce, "Single_Component_Force", 1),
-    (Switchable::SpringDamper, "Spring_Damper", 1),
-    (Switchable::VectorForce, "Vector_Force", 3),
-    (Switchable::VectorTorque, "Vector_Torque", 3),
-    (Switchable::GeneralForce, "General_Force", 6),
-    (Switchable::Bushing, "Bushing", 6),
-    (Switchable::Field, "Field", 6),
-    (Switchable::Beam, "Beam", 6),
+/// A type of applied force.
+pub(crate) struct Applied {
+    /// What ACTIVATE calls it.
+    pub(crate) kind: Switchable,
+    /// What results call it.
+    pub(crate) name: &'static str,
+    /// Number of components of an element among the model's forces.
+    components: usize,
+    elements: fn(&Dataset) -> &dyn Headers,
+}
+
+/// The applied forces in the order of the model's list.
+pub(crate) const APPLIED: [Applied; 8] = [
+    Applied {
+        kind: Switchable::SingleForce,
+        name: "Single_Component_Force",
+        components: 1,
+        elements: |dataset| &dataset.single_forces,
+    },
+    Applied {
+        kind: Switchable::SpringDamper,
+        name: "Spring_Damper",
+        components: 1,
+        elements: |dataset| &dataset.spring_dampers,
+    },
+    Applied {
+        kind: Switchable::VectorForce,
+        name: "Vector_Force",
+        components: 3,
+        elements: |dataset| &dataset.vector_forces,
+    },
+    Applied {
+        kind: Switchable::VectorTorque,
+        name: "Vector_Torque",
+        components: 3,
+        elements: |dataset| &dataset.vector_torques,
+    },
+    Applied {
+        kind: Switchable::GeneralForce,
+        name: "General_Force",
+        components: 6,
+        elements: |dataset| &dataset.general_forces,
+    },
+    Applied {
+        kind: Switchable::Bushing,
+        name: "Bushing",
+        components: 6,
+        elements: |dataset| &dataset.bushings,
+    },
+    Applied {
+        kind: Switchable::Field,
+        name: "Field",
+        components: 6,
+        elements: |dataset| &dataset.fields,
+    },
+    Applied {
+        kind: Switchable::Beam,
+        name: "Beam",
+        components: 6,
+        elements: |dataset| &dataset.beams,
+    },
 ];
 
-/// Headers of the elements of one type of applied force, in the order of the dataset.
-pub(crate) fn applied_headers(dataset: &Dataset, kind: Switchable) -> Vec<&dataset::Header> {
-    fn headers<T: Element>(list: &Elements<T>) -> Vec<&dataset::Header> {
-        list.iter().map(Element::header).collect()
+/// The headers of a list of elements.
+trait Headers {
+    fn count(&self) -> usize;
+    fn header(&self, position: usize) -> &Header;
+    fn position_of(&self, id: u32) -> Option<usize>;
+}
+
+impl<T: Element> Headers for Elements<T> {
+    fn count(&self) -> usize {
+        self.len()
     }
-    match kind {
-        Switchable::SingleForce => headers(&dataset.single_forces),
-        Switchable::SpringDamper => headers(&dataset.spring_dampers),
-        Switchable::VectorForce => headers(&dataset.vector_forces),
-        Switchable::VectorTorque => headers(&dataset.vector_torques),
-        Switchable::GeneralForce => headers(&dataset.general_forces),
-        Switchable::Bushing => headers(&dataset.bushings),
-        Switchable::Field => headers(&dataset.fields),
-        Switchable::Beam => headers(&dataset.beams),
-        Switchable::Joint
-        | Switchable::Primitive
-        | Switchable::Motion
-        | Switchable::Constraint
-        | Switchable::Friction
-        | Switchable::Sensor => Vec::new(),
+
+    fn header(&self, position: usize) -> &Header {
+        self[position].header()
+    }
+
+    fn position_of(&self, id: u32) -> Option<usize> {
+        self.position(id)
     }
 }
 
-/// Places among the model's forces of the components of an applied force, which is at `position`
-/// among those of its type.
-pub(super) fn applied_places(dataset: &Dataset, kind: Switchable, position: usize) -> Range<usize> {
-    let mut first = 0;
-    for (other, _, components) in APPLIED {
-        if other == kind {
+impl Applied {
+    /// The elements in the order of the dataset, with the places of their components among the
+    /// model's forces.
+    pub(crate) fn elements<'a>(
+        &self,
+        dataset: &'a Dataset,
+    ) -> impl Iterator<Item = (&'a Header, Range<usize>)> + use<'a> {
+        let (first, components) = (self.first(dataset), self.components);
+        let elements = (self.elements)(dataset);
+        (0..elements.count()).map(move |position| {
             let start = first + position * components;
-            return start..start + components;
-        }
-        first += components * applied_headers(dataset, other).len();
+            (elements.header(position), start..start + components)
+        })
     }
-    first..first
+
+    /// Places of the components of one element.
+    fn places(&self, dataset: &Dataset, id: u32) -> Option<Range<usize>> {
+        let position = (self.elements)(dataset).position_of(id)?;
+        let start = self.first(dataset) + position * self.components;
+        Some(start..start + self.components)
+    }
+
+    /// Place of the first component of the first element.
+    fn first(&self, dataset: &Dataset) -> usize {
+        let before = APPLIED.iter().take_while(|other| other.kind != self.kind);
+        before
+            .map(|other| other.components * (other.elements)(dataset).count())
+            .sum()
+    }
+}
+
+/// Places among the model's forces of the components of an applied force.
+pub(super) fn applied_places(dataset: &Dataset, kind: Switchable, id: u32) -> Option<Range<usize>> {
+    let applied = APPLIED.iter().find(|applied| applied.kind == kind)?;
+    applied.places(dataset, id)
 }
 
 impl Lowering<'_> {
@@ -131,33 +202,13 @@ impl Lowering<'_> {
 
     /// `−C q' − K (q − LENGTH) + FORCE` with `q` the distance, or the angle about z of J.
     fn spring(&mut self, spring: &SpringDamper) -> Program {
-        let id = |id: u32| Expr::Number(f64::from(id));
-        let (i, j) = (id(spring.i), id(spring.j));
-        // The angular velocity is resolved along the axes of J.
         let (displacement, rate) = match spring.direction {
             ForceDirection::Translational => (Function::Dm, Function::Vr),
             ForceDirection::Rotational => (Function::Az, Function::Wz),
         };
-        let axes = if spring.direction == ForceDirection::Rotational {
-            vec![i.clone(), j.clone(), j.clone()]
-        } else {
-            vec![i.clone(), j.clone()]
-        };
         let mut program = Program::default();
-        let mut input = |program: &mut Program, function, arguments: &[Expr]| {
-            let (dataset, ground) = (self.dataset, self.ground);
-            let marker = |id: Option<u32>| {
-                id.and_then(|id| dataset.markers.position(id))
-                    .unwrap_or(ground)
-            };
-            match self.measures.of_call(function, arguments, marker) {
-                Some(measure) => program.push(Operation::Input(Input::Measure(measure))),
-                // DM, VR, AZ and WZ are measures.
-                None => program.push(Operation::Constant(f64::NAN)),
-            }
-        };
-        let displacement = input(&mut program, displacement, &[i, j]);
-        let rate = input(&mut program, rate, &axes);
+        let displacement = self.measured(&mut program, displacement, spring.i, spring.j);
+        let rate = self.measured(&mut program, rate, spring.i, spring.j);
         let constant = |program: &mut Program, value| program.push(Operation::Constant(value));
         let binary = |program: &mut Program, f, a, b| program.push(Operation::Binary(f, a, b));
         let free = constant(&mut program, spring.free_length);
@@ -171,6 +222,30 @@ impl Lowering<'_> {
         let preload = constant(&mut program, spring.preload);
         binary(&mut program, Binary::Add, resisting, preload);
         program
+    }
+
+    /// A coordinate of marker I in marker J, or its rate as seen from J, along the axes of J.
+    pub(super) fn measured(
+        &mut self,
+        program: &mut Program,
+        function: Function,
+        i: u32,
+        j: u32,
+    ) -> Register {
+        let [i, j] = [i, j].map(|id| Expr::Number(f64::from(id)));
+        // Marker i, marker j, the axes and the observer; functions with fewer markers read no more.
+        let arguments = [i, j.clone(), j.clone(), j];
+        let (dataset, ground) = (self.dataset, self.ground);
+        let marker = |id: Option<u32>| {
+            id.and_then(|id| dataset.markers.position(id))
+                .unwrap_or(ground)
+        };
+        let operation = match self.measures.of_call(function, &arguments, marker) {
+            Some(measure) => Operation::Input(Input::Measure(measure)),
+            // Only measures are asked for.
+            None => Operation::Constant(f64::NAN),
+        };
+        program.push(operation)
     }
 }
 

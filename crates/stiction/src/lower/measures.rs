@@ -104,6 +104,23 @@ impl Measures {
         self.place(key, Quantity::Body123(n))
     }
 
+    /// Place of the rotation of marker `i` about z of marker `j`, or of its displacement along it.
+    pub(super) fn about_or_along_z(
+        &mut self,
+        rotation: bool,
+        i: usize,
+        j: usize,
+        ground: usize,
+    ) -> usize {
+        if rotation {
+            let key = (Function::Az, 0, [i, j, ground, ground]);
+            self.place(key, Quantity::Rotation(2))
+        } else {
+            let key = (Function::Dz, 0, [i, j, j, ground]);
+            self.place(key, Quantity::Displacement(2))
+        }
+    }
+
     fn place(&mut self, key: (Function, u32, [usize; 4]), quantity: Quantity) -> usize {
         let [i, j, k, l] = key.2;
         *self.places.entry(key).or_insert_with(|| {

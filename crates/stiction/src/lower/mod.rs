@@ -2,10 +2,13 @@
 //!
 //! Elements keep their order: bodies are the moving parts and then the point masses, joints the
 //! joints and then the primitives, forces as `forces::APPLIED` says, by components.
-//! Markers keep their places, and a marker at the origin of ground follows them.
+//! Markers keep their places; a marker at the origin of ground, whose id is 0, follows them, and then
+//! those from which coupled coordinates are measured. General constraints are those of the dataset,
+//! then couplers.
 
 mod bodies;
 mod composite;
+mod couplers;
 mod elastic;
 mod expression;
 mod forces;
@@ -24,7 +27,7 @@ use mechanics::Owner;
 use mechanics::model::{Element, Label, Model};
 use nalgebra::Vector3;
 
-pub(crate) use forces::{APPLIED, applied_headers};
+pub(crate) use forces::APPLIED;
 pub(crate) use measures::Measures;
 pub(crate) use outputs::{Column, Outputs, Unit};
 pub(crate) use results::{ForceElement, Side};
@@ -103,6 +106,7 @@ pub(crate) fn lower(
     lowering.joints(&mut model);
     lowering.frictions(&mut model);
     lowering.constraints(&mut model);
+    lowering.couplers(&mut model);
     lowering.motions(&mut model);
     lowering.forces(&mut model);
     let outputs = lowering.outputs();
@@ -163,16 +167,18 @@ impl Lowering<'_> {
                     Element::Joint(dataset.joints.len() + dataset.primitives.position(id)?)
                 }
                 Switchable::Constraint => Element::Constraint(dataset.constraints.position(id)?),
+                Switchable::Coupler => {
+                    Element::Constraint(dataset.constraints.len() + dataset.couplers.position(id)?)
+                }
                 Switchable::Friction => Element::Friction(dataset.frictions.position(id)?),
                 // Motions rest with their joints, too; sensors are no part of the model, and forces
                 // follow below.
                 _ => return None,
             })
         };
-        let forces = APPLIED.into_iter().flat_map(|(kind, ..)| {
-            let headers = applied_headers(dataset, kind).into_iter().enumerate();
-            let resting = headers.filter(move |(_, header)| !dataset.is_active(kind, header.id));
-            resting.flat_map(move |(place, _)| forces::applied_places(dataset, kind, place))
+        let forces = dataset.inactive.iter().filter_map(|&(kind, id)| {
+            let places = forces::applied_places(dataset, kind, id)?;
+            Some(places.map(Element::Force))
         });
         let motions = dataset.motions.iter().zip(&self.motions);
         let resting = motions
@@ -183,10 +189,7 @@ impl Lowering<'_> {
                 Owner::Joint(_) => None,
             });
         let switched = dataset.inactive.iter().filter_map(place);
-        switched
-            .chain(resting)
-            .chain(forces.map(Element::Force))
-            .collect()
+        switched.chain(resting).chain(forces.flatten()).collect()
     }
 
     fn error(&mut self, code: Code, span: Span, message: String, help: Option<&str>) {

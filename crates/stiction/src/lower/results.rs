@@ -1,11 +1,13 @@
 //! Functions whose value is part of the solution: reactions, forces and friction.
 
-use dataset::{Dataset, Expr, Function, Switchable};
+use std::ops::Range;
+
+use dataset::{Expr, Function, Switchable};
 use mechanics::Owner;
 use nalgebra::Vector3;
 
 use super::Lowering;
-use super::forces::{applied_headers, applied_places};
+use super::forces::applied_places;
 use crate::wrenches::Wrenches;
 
 /// An element that applies a force and a torque between two markers.
@@ -25,9 +27,8 @@ pub(crate) enum ForceElement {
 }
 
 impl ForceElement {
-    /// The applied force at `position` among those of its type.
-    pub(crate) fn applied(dataset: &Dataset, kind: Switchable, position: usize) -> Self {
-        let places = applied_places(dataset, kind, position);
+    /// The applied force whose components have these places.
+    pub(crate) fn applied(places: Range<usize>) -> Self {
         Self::Applied {
             first: places.start,
             count: places.len(),
@@ -99,10 +100,8 @@ impl ResultSource {
             })
         };
         let applied = |kind| {
-            let id = number(0)?;
-            let headers = applied_headers(dataset, kind);
-            let position = headers.iter().position(|header| header.id == id)?;
-            Some(ForceElement::applied(dataset, kind, position))
+            let places = applied_places(dataset, kind, number(0)?)?;
+            Some(ForceElement::applied(places))
         };
         let element = match function {
             F::Fm => return between(0, lowering.ground),

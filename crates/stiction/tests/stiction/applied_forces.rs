@@ -247,3 +247,37 @@ fn a_field_is_its_matrix_by_columns() {
         assert!((found - wanted).abs() < 1e-9, "{name}: {found} {wanted}");
     }
 }
+
+#[test]
+fn commands_switch_and_change_a_vector_force() {
+    let text = "switched
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, FLOATING
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+VFORCE/1, I=20, JFLOAT=2, RM=1, FX=4\\FY=6\\
+END
+";
+    let commands = "
+FILE/MODEL=switched
+SIMULATE/DYNAMIC, END=1, STEPS=1
+DEACTIVATE/VFORCE, ID=1
+SIMULATE/DYNAMIC, END=2, STEPS=1
+ACTIVATE/VFORCE, ID=1
+VFORCE/1, FX=-4\\
+SIMULATE/DYNAMIC, END=3, STEPS=1
+STOP
+";
+    let folder = crate::shared::scratch_folder();
+    std::fs::write(folder.join("switched.adm"), text).unwrap();
+    std::fs::write(folder.join("switched.acf"), commands).unwrap();
+    let file = folder.join("switched.acf");
+    let project = stiction::Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
+    let results = crate::shared::complete(&project, None);
+    std::fs::remove_dir_all(folder).unwrap();
+    // 2 for a second, nothing for a second, -2 along x and still 3 along y for a second.
+    assert!(last(&results, "PART_2_XFORM.VX").abs() < 1e-9);
+    assert!((last(&results, "PART_2_XFORM.VY") - 6.0).abs() < 1e-9);
+    assert!((last(&results, "VFORCE_1.FX") + 4.0).abs() < 1e-12);
+}

@@ -9,6 +9,7 @@ mod adams;
 mod applied_forces;
 mod commands;
 mod corpus;
+mod couplers;
 mod delta_robot;
 mod energy;
 mod examples;

@@ -1,0 +1,74 @@
+//! COUPLER.
+
+use super::{Builder, Reference, Target, add};
+use crate::diagnostic::Code;
+use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::model::{CoupledFreedom, Coupler};
+use crate::reading::Reading;
+
+const SUBROUTINE: &str = "subroutines are not called";
+
+pub(super) const KEYWORDS: &[Keyword] = &[
+    abbreviated("JOINTS", "J", Kind::Ids),
+    abbreviated("TYPE", "T", Kind::Words),
+    abbreviated("SCALES", "S", Kind::Reals(1, 3)),
+    abbreviated("FUNCTION", "FU", Kind::Unsupported(SUBROUTINE)),
+    keyword("ROUTINE", Kind::Unsupported(SUBROUTINE)),
+];
+
+/// COUPLER.
+pub(super) fn coupler(reading: &mut Reading, builder: &mut Builder) {
+    reading.require("JOINTS");
+    if !reading.has("FUNCTION") {
+        reading.require("SCALES");
+    }
+    let joints = reading.ids("JOINTS").to_vec();
+    for &(id, span) in &joints {
+        let target = Target::Joint;
+        builder.references.push(Reference { target, id, span });
+    }
+    if !joints.is_empty() && !(2..=3).contains(&joints.len()) {
+        let found = joints.len();
+        refuse(
+            reading,
+            "JOINTS",
+            format!("a coupler has two or three joints, found {found}"),
+        );
+    }
+    let types = [("ROTATIONAL", true), ("TRANSLATIONAL", false)];
+    let rotations = reading.choices("TYPE", &types);
+    if let Some(rotations) = &rotations
+        && rotations.len() != joints.len()
+    {
+        let message = format!("TYPE takes one letter a joint, found {}", rotations.len());
+        refuse(reading, "TYPE", message);
+    }
+    let mut scales: Vec<f64> = reading.reals("SCALES").iter().map(|(r, _)| *r).collect();
+    if scales.len() + 1 == joints.len() {
+        // The first scale is one where it is left out.
+        scales.insert(0, 1.0);
+    }
+    if reading.has("SCALES") && scales.len() != joints.len() {
+        let message = format!(
+            "SCALES takes one number a joint, of which the first may be left out, found {}",
+            scales.len()
+        );
+        refuse(reading, "SCALES", message);
+    }
+    let freedom = |(place, (joint, _)): (usize, (u32, _))| CoupledFreedom {
+        joint,
+        rotation: rotations.as_ref().and_then(|list| list.get(place).copied()),
+        scale: scales.get(place).copied().unwrap_or(0.0),
+    };
+    let coupler = Coupler {
+        header: reading.header(),
+        freedoms: joints.into_iter().enumerate().map(freedom).collect(),
+    };
+    let list = &mut builder.dataset.couplers;
+    add(list, coupler, reading.name, reading.diagnostics);
+}
+
+fn refuse(reading: &mut Reading, keyword: &'static str, message: String) {
+    let span = reading.place(keyword);
+    reading.diagnostics.error(Code::InvalidValue, span, message);
+}

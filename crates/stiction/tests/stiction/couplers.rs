@@ -1,0 +1,90 @@
+//! COUPLER against closed forms: gears, a winch and a differential.
+
+use results::ResFile;
+
+use crate::shared::run_text;
+
+fn last(results: &ResFile, name: &str) -> f64 {
+    *results.get(name).unwrap().last().unwrap()
+}
+
+/// Rotors 2, 3 and 4 about z of ground with inertias 2, 3 and 5, and a slide 5 of mass 4 along z.
+const MACHINE: &str = "machine
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/9, PART=1, QP=0, 0, 7
+PART/2, MASS=1, CM=20, IP=3, 3, 2
+MARKER/20, PART=2
+MARKER/21, PART=2, REULER=180D, 0, 0
+PART/3, MASS=1, CM=30, IP=3, 3, 3
+MARKER/30, PART=3
+MARKER/31, PART=3, REULER=-100D, 0, 0
+PART/4, MASS=1, CM=40, IP=3, 3, 5
+MARKER/40, PART=4
+PART/5, MASS=4, CM=50, IP=1, 1, 1, QG=0, 0, 2
+MARKER/50, PART=5
+JOINT/1, REVOLUTE, I=21, J=1
+JOINT/2, REVOLUTE, I=31, J=1
+JOINT/3, REVOLUTE, I=40, J=1
+JOINT/4, TRANSLATIONAL, I=50, J=9
+SFORCE/1, ROTATIONAL, I=20, J=1, FUNCTION=10
+REQUEST/1, F2=AZ(20,1)\\F3=AZ(30,1)\\F4=AZ(40,1)\\
+";
+
+/// `Σ s q = 0` with inertias `m` under a torque of ten on the first: the multiplier is
+/// `−10 s₁/m₁ / Σ s²/m` and the accelerations are `(10 e₁ + λ s)/m`.
+fn accelerations(inertias: &[f64], scales: &[f64]) -> (Vec<f64>, f64) {
+    let stiffness: f64 = inertias.iter().zip(scales).map(|(m, s)| s * s / m).sum();
+    let multiplier = -10.0 * scales[0] / inertias[0] / stiffness;
+    let mut force = vec![0.0; inertias.len()];
+    force[0] = 10.0;
+    let all = force.iter().zip(scales).zip(inertias);
+    let accelerations = all.map(|((f, s), m)| (f + multiplier * s) / m).collect();
+    (accelerations, multiplier * scales[0])
+}
+
+#[test]
+fn gears_turn_in_proportion_over_many_turns() {
+    // The angles start at 180 and -100 degrees; the sum stays what it is there.
+    let text = format!("{MACHINE}COUPLER/1, JOINTS=1, 2, TYPE=R:R, SCALES=1, -3\nEND\n");
+    let t = 4.0;
+    let results = run_text(&text, t, 40, Some(1e-8));
+    let (wanted, torque) = accelerations(&[2.0, 3.0], &[1.0, -3.0]);
+    let angles = ["F2", "F3"].map(|name| last(&results, &format!("REQUEST_1.{name}")));
+    for (angle, acceleration) in angles.iter().zip(&wanted) {
+        let wanted = 0.5 * acceleration * t * t;
+        // The integrator's error of 1e-8 a step over some hundred steps.
+        assert!((angle - wanted).abs() < 1e-5, "{angle} {wanted}");
+    }
+    assert!(angles[0] > 5.0 * std::f64::consts::TAU);
+    // The gear holds back the first rotor.
+    assert!((last(&results, "COUPLER_1.TZ") - torque).abs() < 1e-6);
+    assert!(last(&results, "PART_4_XFORM.WZ").abs() < 1e-12);
+}
+
+#[test]
+fn a_winch_pulls_a_slide() {
+    // One scale is that of the second joint; types follow from the joints.
+    let text = format!("{MACHINE}COUPLER/1, JOINTS=1, 4, SCALES=-0.5\nEND\n");
+    let results = run_text(&text, 1.0, 10, Some(1e-8));
+    let (wanted, torque) = accelerations(&[2.0, 4.0], &[1.0, -0.5]);
+    let found = last(&results, "PART_5_XFORM.ACCZ");
+    assert!((found - wanted[1]).abs() < 1e-6, "{found} {}", wanted[1]);
+    assert!((last(&results, "COUPLER_1.TZ") - torque).abs() < 1e-6);
+    // It starts where it stands, although the joint's displacement is -5 there.
+    assert!((results.get("PART_5_XFORM.Z").unwrap()[1] - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_differential_splits_the_torque() {
+    let text = format!("{MACHINE}COUPLER/1, JOINTS=1, 2, 3, TYPE=R:R:R, SCALES=2, -1, -1\nEND\n");
+    let results = run_text(&text, 1.0, 10, Some(1e-8));
+    let (wanted, _) = accelerations(&[2.0, 3.0, 5.0], &[2.0, -1.0, -1.0]);
+    for (part, wanted) in [2, 3, 4].into_iter().zip(wanted) {
+        let found = last(&results, &format!("PART_{part}_XFORM.WDZ"));
+        assert!(
+            (found - wanted).abs() < 1e-6,
+            "PART/{part}: {found} {wanted}"
+        );
+    }
+}
