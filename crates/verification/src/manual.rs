@@ -147,7 +147,8 @@ fn table_of_case(page: &mut String, case: &[&Recorded]) {
     push(
         page,
         format_args!(
-            "\n### {id}\n\n{model}.\nReference: {source}. Test: `{}`.\n\n",
+            "\n### {id}\n\n{}.\nReference: {source}. Test: `{}`.\n\n",
+            sentence(model),
             first.test
         ),
     );
@@ -156,6 +157,13 @@ fn table_of_case(page: &mut String, case: &[&Recorded]) {
     for recorded in case {
         row(page, &recorded.claim);
     }
+}
+
+/// The text with a capital at its start.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
 }
 
 fn row(page: &mut String, claim: &Claim) {
