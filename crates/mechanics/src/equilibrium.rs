@@ -6,7 +6,10 @@
 //!
 //! by Newton's method on the same matrix as the dynamics, with its mass and velocity parts reduced
 //! to a small multiple (STABILITY), which decides where the stiffness does not: bodies that may turn
-//! freely stay as they are. Steps are limited, and shortened until the imbalance falls. Where the
+//! freely stay as they are. Steps are limited, and shortened until the imbalance falls, or else the
+//! step that would follow it with the same matrix (Deuflhard, *Newton Methods for Nonlinear Problems*,
+//! section 3.3): a slender beam that bends is stretched by the square of its rotation, and its axial
+//! stiffness makes more of that than of the load. Where the
 //! forces would do negative work along a step, it leads to an unstable equilibrium; the multiple is
 //! then raised until the step follows the forces.
 //!
@@ -62,6 +65,7 @@ pub(crate) struct Statics {
     factors: SparseLu,
     right: Vec<f64>,
     change: Vec<f64>,
+    next: Vec<f64>,
     zero: Vec<f64>,
     /// A force that is typical of the model: the imbalances are compared by it.
     force: f64,
@@ -76,6 +80,7 @@ impl Statics {
             factors: SparseLu::new(),
             right: vec![0.0; size],
             change: vec![0.0; size],
+            next: vec![0.0; size],
             zero: vec![0.0; n],
             force: 1.0,
         }
@@ -172,7 +177,7 @@ impl Statics {
                         *multiplier = start_multipliers[row] + part * self.change[n + row];
                     }
                     let trial = self.residual(system, state, multipliers, length)?;
-                    if trial < (1.0 - 1e-4 * part) * merit {
+                    if trial < (1.0 - 1e-4 * part) * merit || self.comes_closer(part, length) {
                         *stability = (0.1 * *stability).max(settings.stability);
                         return Ok(largest_of(&step));
                     }
@@ -192,6 +197,26 @@ impl Statics {
             multipliers.copy_from_slice(&start_multipliers);
             system.evaluate(state, true);
         }
+    }
+
+    /// Whether the step that would follow `part` of the last one, with the same matrix, is shorter
+    /// than that one: the natural monotonicity test. It does not depend on the scale of the forces.
+    fn comes_closer(&mut self, part: f64, length: f64) -> bool {
+        self.next.copy_from_slice(&self.right);
+        self.factors.solve(&mut self.next);
+        let n = self.zero.len();
+        let size = |change: &[f64]| {
+            let bodies = change[..n].chunks_exact(VELOCITIES);
+            bodies
+                .map(|body| {
+                    let moved = Vector3::from_column_slice(&body[..3]).norm() / length;
+                    let turned = Vector3::from_column_slice(&body[3..]).norm();
+                    moved * moved + turned * turned
+                })
+                .sum::<f64>()
+                .sqrt()
+        };
+        size(&self.next) < (1.0 - 0.25 * part) * size(&self.change)
     }
 
     /// Whether the constraints are met so well that the work of a step is that of the forces.

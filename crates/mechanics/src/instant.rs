@@ -48,6 +48,7 @@ pub(crate) struct Instant {
     momentum: Vec<f64>,
     zero: Vec<f64>,
     guess: Vec<f64>,
+    guessed_accelerations: Vec<f64>,
 }
 
 impl Instant {
@@ -62,6 +63,7 @@ impl Instant {
             momentum: vec![0.0; n],
             zero: vec![0.0; n],
             guess: vec![0.0; system.row_count()],
+            guessed_accelerations: vec![0.0; n],
         }
     }
 
@@ -75,6 +77,7 @@ impl Instant {
         multipliers: &mut [f64],
     ) -> Result<(), Failure> {
         self.guess.copy_from_slice(multipliers);
+        self.guessed_accelerations.copy_from_slice(accelerations);
         system.set_statics(false);
         system.evaluate(state, false);
         let n = system.velocity_count();
@@ -119,6 +122,11 @@ impl Instant {
     /// The multipliers that the last solution started from.
     pub(crate) fn guess(&self) -> &[f64] {
         &self.guess
+    }
+
+    /// The accelerations that the last solution started from.
+    pub(crate) fn guessed_accelerations(&self) -> &[f64] {
+        &self.guessed_accelerations
     }
 
     /// Builds and factors the matrix at the state evaluated last. At γ = 0 it needs no derivatives

@@ -45,6 +45,9 @@ pub struct Statistics {
     pub steps: bdf::Statistics,
     /// Residuals and factorisations.
     pub work: Work,
+    /// Outputs whose accelerations and reactions are those of the step around them, because bristles
+    /// that are not passive left the instant without a solution.
+    pub rough_outputs: usize,
 }
 
 /// An accepted step, for tables and progress.
@@ -422,7 +425,10 @@ impl Simulation {
         while bdf.time() < end && ending == Ending::Completed {
             let advanced = bdf.advance(dynamics, end);
             self.scales = dynamics.scales;
-            self.statistics = total(before, bdf.statistics(), dynamics.work);
+            self.statistics = {
+                let rough = self.statistics.rough_outputs;
+                total(before, bdf.statistics(), dynamics.work, rough)
+            };
             if let Err(error) = advanced {
                 // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
                 // has only positions to meet.
@@ -518,7 +524,20 @@ impl Simulation {
                     &mut self.multipliers,
                 )
             });
-        solved.map_err(|failure| self.unsolved(&failure, instant))
+        let Err(failure) = solved else {
+            return Ok(());
+        };
+        let bristles = !self.state.bristle_range().is_empty() && self.bristle_gamma > 0.0;
+        let rough = matches!(failure, Failure::NotConverged { .. }) && bristles;
+        if !rough || self.jam_behind(&failure, instant).is_some() {
+            return Err(self.unsolved(&failure, instant));
+        }
+        // The step itself had a solution, and its reactions are near.
+        self.statistics.rough_outputs += 1;
+        self.multipliers.copy_from_slice(instant.guess());
+        self.accelerations
+            .copy_from_slice(instant.guessed_accelerations());
+        Ok(())
     }
 
     /// The bristles keep their deflection at the present instant.
@@ -533,14 +552,18 @@ impl Simulation {
     /// An instant that could not be solved: a jam where that explains it, with the reactions as the
     /// iteration left them or as it found them.
     fn unsolved(&mut self, failure: &Failure, instant: &Instant) -> RunError {
+        self.jam_behind(failure, instant)
+            .map_or_else(|| self.error(failure), |jam| jammed(self.state.time, &jam))
+    }
+
+    fn jam_behind(&mut self, failure: &Failure, instant: &Instant) -> Option<Jam> {
         let mut watch = GainWatch::new(&self.system);
-        let jam = match failure {
+        match failure {
             Failure::NotConverged { .. } | Failure::Singular(_) => watch
                 .explain(&mut self.system, &self.multipliers)
                 .or_else(|| watch.explain(&mut self.system, instant.guess())),
             _ => None,
-        };
-        jam.map_or_else(|| self.error(failure), |jam| jammed(self.state.time, &jam))
+        }
     }
 
     /// State, accelerations and reactions at `time` within the last accepted step.
@@ -556,6 +579,8 @@ impl Simulation {
         self.relax_bristles(bdf, time);
         // The reactions of the step are near: bristles may know several solutions.
         self.multipliers.copy_from_slice(&dynamics.multipliers);
+        let velocities = self.state.velocity_range();
+        bdf.interpolate_slope(time, velocities, &mut self.accelerations);
         for body in 0..self.state.bodies() {
             let place = POSITIONS * body + 3;
             let q = self.state.orientation(body).normalized();
@@ -712,7 +737,12 @@ fn jammed(time: f64, jam: &Jam) -> RunError {
     }
 }
 
-fn total(before: &Statistics, steps: bdf::Statistics, work: Work) -> Statistics {
+fn total(
+    before: &Statistics,
+    steps: bdf::Statistics,
+    work: Work,
+    rough_outputs: usize,
+) -> Statistics {
     Statistics {
         steps: bdf::Statistics {
             steps: before.steps.steps + steps.steps,
@@ -725,6 +755,7 @@ fn total(before: &Statistics, steps: bdf::Statistics, work: Work) -> Statistics 
             factorisations: before.work.factorisations + work.factorisations,
             index3_steps: before.work.index3_steps + work.index3_steps,
         },
+        rough_outputs,
     }
 }
 

@@ -56,6 +56,11 @@ impl State {
         (POSITIONS + VELOCITIES) * self.bodies
     }
 
+    /// Places of the velocities among the values.
+    pub(crate) fn velocity_range(&self) -> std::ops::Range<usize> {
+        POSITIONS * self.bodies..self.motions()
+    }
+
     /// Places of the bristle deflections among the values.
     pub(crate) fn bristle_range(&self) -> std::ops::Range<usize> {
         self.motions()..self.motions() + self.bristles

@@ -26,6 +26,8 @@ pub(crate) struct Journal<W: Write> {
     exhausted: HashSet<usize>,
     /// Elements whose redundant equations have been warned about.
     broken: HashSet<Label>,
+    /// Outputs told of that have the reactions of their step.
+    rough: usize,
 }
 
 /// Redundant equations that are off by this part of the model's length, or as many radians, no
@@ -41,6 +43,7 @@ impl<W: Write> Journal<W> {
             processor: processor_time(),
             exhausted: HashSet::new(),
             broken: HashSet::new(),
+            rough: 0,
         }
     }
 
@@ -199,6 +202,15 @@ impl<W: Write> Journal<W> {
             steps.starts,
             work.residuals,
             work.factorisations
+        ))?;
+        let rough =
+            statistics.rough_outputs - std::mem::replace(&mut self.rough, statistics.rough_outputs);
+        if rough == 0 {
+            return Ok(());
+        }
+        self.warning(&format!(
+            "at {rough} outputs the reactions are those of the step around them: the damping of bristles \
+             that are not passive left the instant without a solution"
         ))
     }
 
