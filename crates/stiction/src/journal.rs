@@ -10,6 +10,7 @@ use results::{MessageWriter, StepRow};
 
 use crate::balance::{EnergyBalance, SUSPICIOUS};
 use crate::defaults::defaults_in_use;
+use crate::lower::APPLIED;
 use crate::message::Message;
 use crate::report::{FrictionReport, friction_table};
 use crate::session::OutputError;
@@ -91,6 +92,10 @@ impl<W: Write> Journal<W> {
     pub(crate) fn model(&mut self, dataset: &Dataset, model: &Model) -> Result<(), OutputError> {
         let written = self.writer.title(&dataset.title);
         self.check(written)?;
+        let forces = APPLIED
+            .iter()
+            .map(|applied| applied.elements(dataset).count());
+        let forces: usize = forces.sum();
         self.note(&format!(
             "{} moving parts, {} joints, {} motions, {} general constraints, {} forces, {} \
              frictions, {} variables, {} requests",
@@ -98,7 +103,7 @@ impl<W: Write> Journal<W> {
             model.joints.len(),
             model.motions.len(),
             model.constraints.len(),
-            model.forces.len(),
+            forces,
             model.frictions.len(),
             dataset.variables.len(),
             dataset.requests.len(),

@@ -281,3 +281,48 @@ STOP
     assert!((last(&results, "PART_2_XFORM.VY") - 6.0).abs() < 1e-9);
     assert!((last(&results, "VFORCE_1.FX") + 4.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_chain_of_beams_bends_like_one_beam() {
+    // Ten steel beams in a row: their axial stiffness makes hundreds of newtons of the stretch that
+    // the first step of a static solution leaves.
+    use std::fmt::Write;
+    let (count, length, load, stiffness) = (10_u32, 1.0, 10.0, 2e11 * 1e-8);
+    let part = length / f64::from(count);
+    let mut text = "chain
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, FLOATING
+"
+    .to_owned();
+    for k in 1..=count {
+        let (id, x) = (k + 1, f64::from(k) * part);
+        let j = if k == 1 { 1 } else { 10 * k };
+        write!(
+            text,
+            "PART/{id}, MASS=0.78, CM={id}0, IP=1E-3, 1E-3, 1E-3, QG={x}, 0, 0
+MARKER/{id}0, PART={id}
+BEAM/{k}, I={id}0, J={j}, LENGTH={part}, AREA=1E-3, IXX=2E-8, IYY=1E-8, IZZ=1E-8
+, EMODULUS=2E11, GMODULUS=8E10
+"
+        )
+        .unwrap();
+    }
+    text += "VFORCE/1, I=110, JFLOAT=2, RM=1, FY=-10\\
+REQUEST/1, F2=DY(110,1)\\F3=AZ(110,1)\\F4=BEAM(1,1,8,1)\\
+END
+";
+    let results = equilibrium(&text);
+    let [deflection, slope, moment] =
+        ["F2", "F3", "F4"].map(|name| last(&results, &format!("REQUEST_1.{name}")));
+    let wanted = -load * length.powi(3) / (3.0 * stiffness);
+    // Finite rotations change a part of 6e-6, the square of the slope of 2.5e-3, times less than one.
+    assert!(
+        (deflection / wanted - 1.0).abs() < 1e-5,
+        "{deflection} {wanted}"
+    );
+    let wanted = -load * length * length / (2.0 * stiffness);
+    assert!((slope / wanted - 1.0).abs() < 1e-5, "{slope} {wanted}");
+    // On ground: the whole lever, about z.
+    assert!((moment + load * length).abs() < 1e-4, "{moment}");
+}
