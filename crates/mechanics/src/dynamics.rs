@@ -20,9 +20,10 @@
 //!
 //! Bristle deflections of LuGre follow from velocities and reactions in closed form (see
 //! `joint_friction`); the works of frictions, forces and motions are integrated by the same formula.
-//! Neither is an unknown of Newton's iteration, nor part of the error test. Sliding bristles follow the
-//! reactions, which a step determines to the Newton tolerance divided by its length only: an error
-//! test on them answers with shorter steps, and those with rougher reactions (docs/decisions/0006).
+//! Neither is an unknown of Newton's iteration, and works take no part in the error test. Deflections do
+//! while the joint sticks; sliding bristles follow the reactions, which a step determines to the Newton
+//! tolerance divided by its length only: an error test on them answers with shorter steps, and those
+//! with rougher reactions (docs/decisions/0006).
 //!
 //! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
@@ -132,6 +133,8 @@ pub(crate) struct Dynamics {
     /// Friction memory before the last accepted step, for outputs within it.
     pub(crate) previous: Vec<Memory>,
     powers: Vec<f64>,
+    /// What errors of bristle deflections are multiplied with; zero where they slide.
+    bristle_weights: Vec<f64>,
     state: State,
     shift: Vec<f64>,
     impulses: Vec<f64>,
@@ -166,6 +169,7 @@ impl Dynamics {
             multipliers: vec![0.0; system.row_count()],
             previous: system.history.frictions.clone(),
             powers: vec![0.0; system.work_count()],
+            bristle_weights: vec![0.0; system.bristle_count()],
             state,
             shift: vec![0.0; n],
             impulses: vec![0.0; system.row_count()],
@@ -425,6 +429,8 @@ impl Dynamics {
         self.system
             .write_bristles(&self.multipliers, Some(deflections), None);
         self.system
+            .write_bristle_weights(&self.multipliers, &mut self.bristle_weights);
+        self.system
             .write_powers(&self.multipliers, &mut self.powers);
         for (place, power) in self.state.work_range().zip(&self.powers) {
             self.state.values[place] = step.history[place] + step.gamma * power;
@@ -525,6 +531,10 @@ impl bdf::System for Dynamics {
             if d.is_nan() {
                 return f64::NAN;
             }
+        }
+        let bristles = &difference[self.state.bristle_range()];
+        for (d, weight) in bristles.iter().zip(&self.bristle_weights) {
+            norm = norm.max(d.abs() * weight);
         }
         if self.present == Formulation::Si2 {
             let velocities = POSITIONS * bodies..self.state.motions();

@@ -1,5 +1,7 @@
 //! The bristle deflections of LuGre: states of the integrator that the step equations leave out.
 
+use friction::Regime;
+
 use super::System;
 use crate::joint_friction::{BristlePast, StepEnd};
 use crate::model::{Element, Law};
@@ -54,6 +56,27 @@ impl System {
             }
             if let Some(out) = rates.as_deref_mut() {
                 out[first..first + count].copy_from_slice(&element.deflection_rate[..count]);
+            }
+            first += count;
+        }
+    }
+
+    /// Writes what errors of the deflections are multiplied with at the instant evaluated last, to be
+    /// relative to the deflection of the largest load; zero where the joint slides.
+    pub(crate) fn write_bristle_weights(&self, multipliers: &[f64], weights: &mut [f64]) {
+        let mut first = 0;
+        for (place, friction) in self.model.frictions.iter().enumerate() {
+            let count = self.bristles_of(place);
+            if let Law::LuGre(law) = &friction.law {
+                let values = self.friction(place, multipliers).0.values;
+                let load = friction.surface_load(&values.load);
+                let level = law.mu_static * load.max(self.history.frictions[place].largest_load);
+                let sticks = values.regime == Regime::Stuck && level > 0.0;
+                weights[first..first + count].fill(if sticks {
+                    law.bristle_stiffness / level
+                } else {
+                    0.0
+                });
             }
             first += count;
         }
