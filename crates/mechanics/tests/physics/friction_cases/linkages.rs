@@ -1,16 +1,17 @@
 //! Friction in loops: slider-crank (C01a) and four-bar (C02a).
 
+use friction::LuGre;
 use friction::parameters::JointType;
 use mechanics::model::Model;
 use mechanics::{Formulation, Owner};
 use serde_json::Value;
 use verification::{Case, Claim, Rule, Section, check};
 
-use super::{HALVINGS, TURNS, original};
+use super::{HALVINGS, TURNS, lugre, original};
 use crate::builder::Builder;
 use crate::runs::{Sample, every, run, settings, turned, turning_points};
 use crate::shared::{number, reference, table};
-use crate::systems::{driven_slider_crank, four_bar, law, slider_crank};
+use crate::systems::{bristles, driven_slider_crank, four_bar, law, slider_crank};
 
 /// Turning points of the crank (body 0) that starts at `start`, and its last angle.
 fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {
@@ -210,4 +211,66 @@ fn four_bar_without_weight_scales_with_its_speed() {
         1e-8,
         "other steps at the start; the error of a step is 1e-11",
     )]);
+}
+
+/// C01a with bristles from soft to nearly rigid: the load of the guide passes zero and changes sides.
+#[test]
+fn slider_crank_with_bristles_in_its_guide() {
+    let Some(file) = reference("validation/data/C01_C02_mechanisms.json") else {
+        return;
+    };
+    let first_turn = |stiffness: f64| {
+        let bristles = LuGre {
+            bristle_stiffness: stiffness,
+            damping: 100.0,
+            ..bristles(0.25, 0.2)
+        };
+        let mut model = slider_crank(Some(law(0.25, 0.2, 1e-2, 1e-4)));
+        model.frictions[0].law = bristles.into();
+        crank(model, 0.5, 1.1).0[0]
+    };
+    let at = |key: &str| number(&file, &format!("/cases/C01a_slider_only/turning/0/{key}"));
+    let case = Case {
+        section: Section::Mechanism,
+        id: "C01a bristles",
+        model: "the slider-crank of C01a on bristles, s1 100 N s/m, vs 1 mm/s; s0 from 1e5 N/m, doubled three times, and 1e9",
+        source: SOURCE,
+        covers: &lugre(JointType::Translational, &["INPUTS"]),
+    };
+    let turns = HALVINGS.map(|h| first_turn(1e5 / h));
+    let stiff = first_turn(1e9);
+    let soft = "the bristles give way by 1/s0";
+    let rigid = "what is left of vs";
+    check(&[
+        case.limit(
+            "time of turn 1 [s]",
+            &turns.map(|t| t.0),
+            at("t"),
+            Rule::Order(1.0),
+            soft,
+        ),
+        case.limit(
+            "angle of turn 1 [rad]",
+            &turns.map(|t| t.1),
+            at("theta"),
+            Rule::Order(1.0),
+            soft,
+        ),
+        case.values(
+            "time of turn 1, s0 1e9 [s]",
+            &[stiff.0],
+            &[at("t")],
+            1e-5,
+            rigid,
+        ),
+        case.values(
+            "angle of turn 1, s0 1e9 [rad]",
+            &[stiff.1],
+            &[at("theta")],
+            1e-5,
+            rigid,
+        ),
+    ]);
+    // Soft bristles let it swing: no reference, but no failure.
+    assert!(first_turn(1e2).1 < at("theta"));
 }
