@@ -1,18 +1,22 @@
-//! Bristles in joints (B12, C03).
+//! Bristles in joints (B12, C03; 9.9).
 
 use friction::LuGre;
 use friction::parameters::JointType;
 use mechanics::Formulation;
+use mechanics::expression::{Binary, Input, Operation, Program, Unary};
+use mechanics::model::{ForceKind, Law};
+use nalgebra::Vector3;
 use verification::{Case, Section, check};
 
 use super::lugre;
 use super::springs::Belt;
+use crate::builder::axes_with_z;
 use crate::oracle::{self, runge_kutta};
 use crate::runs::{run, settings, turned};
 use crate::shared::{number, reference, table};
-use crate::systems::bristles;
 use crate::systems::sliding::{Block, place, speed};
 use crate::systems::turning::Pendulum;
+use crate::systems::{bristles, law};
 
 /// B12a: from rest on three slopes.
 #[test]
@@ -177,5 +181,76 @@ fn belt_on_bristles() {
         case.worst("x at 50 times to 5 s [m]", x, 5e-8, why),
         case.worst("z there [m]", z, 5e-11, why),
         case.worst("friction there [N]", f, 2e-6, "the same through s0, s1"),
+    ]);
+}
+
+/// 9.9: a load that comes and goes below the limit makes bristles drift, and creep not.
+#[test]
+fn cycled_blocks() {
+    let (limit, part, period) = (1.5, 0.95, 100.0);
+    let places = |law: Law| {
+        let mut block = Block::new(law);
+        (block.mass, block.gravity, block.slope) = (1.0, 10.0, 0.0);
+        let mut b = block.builder();
+        let axes = axes_with_z(Vector3::x());
+        let [i, j] = [Some(0), None].map(|on| b.marker(on, Vector3::zeros(), axes));
+        // From zero to the part of the limit and back: (1 − cos)/2.
+        let mut force = Program::default();
+        let time = force.push(Operation::Input(Input::Time));
+        let rate = force.push(Operation::Constant(std::f64::consts::TAU / period));
+        let angle = force.push(Operation::Binary(Binary::Multiply, rate, time));
+        let cosine = force.push(Operation::Unary(Unary::Cos, angle));
+        let one = force.push(Operation::Constant(1.0));
+        let rising = force.push(Operation::Binary(Binary::Subtract, one, cosine));
+        let size = force.push(Operation::Constant(0.5 * part * limit));
+        force.push(Operation::Binary(Binary::Multiply, size, rising));
+        b.force(ForceKind::AlongZ, i, j, force);
+        let mut places = Vec::new();
+        let settings = settings(Formulation::Si2, 1e-10, 1.0);
+        run(
+            b.model,
+            &[1.0, 2.0, 3.0, 4.0].map(|k| k * period),
+            &settings,
+            |s| {
+                places.push(place(s));
+            },
+        );
+        places
+    };
+    let soft = LuGre {
+        damping: 1e5_f64.sqrt(),
+        viscous: 0.4,
+        ..bristles(0.15, 0.10)
+    };
+    let (drifting, held) = (
+        places(soft.into()),
+        places(law(0.15, 0.10, 1e-3, 1.5e-5).into()),
+    );
+    let exact = -(limit / 1e5) * (1.0_f64 - part * part).ln();
+    let drifts: Vec<f64> = drifting.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let case = Case {
+        section: Section::Joint,
+        id: "9.9 joint",
+        model: "1 kg under 10 N, loaded to 0.95 of its limit and back in 100 s, four times; s0 1e5, s1 √1e5, s2 0.4",
+        source: "quasi-static closed form −(Fs/s0) ln(1 − a²) a cycle",
+        covers: &lugre(JointType::Translational, &["VISCOUS_FRICTION_COEFFICIENT"]),
+    };
+    let slow = "one percent: the rate of the load, 0.03 N/s, is not zero";
+    let original = "creep goes back to where it began; the rest of the motion";
+    check(&[
+        case.values(
+            "drift a cycle, LUGRE [m]",
+            &drifts,
+            &[exact; 3],
+            3.5e-7,
+            slow,
+        ),
+        case.values(
+            "place after each cycle, ORIGINAL [m]",
+            &held,
+            &[0.0; 4],
+            1e-9,
+            original,
+        ),
     ]);
 }
