@@ -11,7 +11,8 @@ use crate::reading::Reading;
 /// most: three digits, as in a thin plate with IP = 0.333, 0.333, 0.667.
 const MOST_ROUNDING: f64 = 2e-3;
 
-/// Reports IP = xx, yy, zz, xy, xz, yz where no body has it.
+/// Reports IP = xx, yy, zz, xy, xz, yz where no body has it: an error where its tensor would give
+/// negative energies, else a warning, as models lump the inertia of a rotor about its axis alone.
 pub(crate) fn check(reading: &mut Reading, inertia: &[f64; 6]) {
     let largest = inertia.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     if largest == 0.0 {
@@ -33,6 +34,8 @@ pub(crate) fn check(reading: &mut Reading, inertia: &[f64; 6]) {
     ];
     let smallest = smallest_eigenvalue(second_moments, [xy, xz, yz]);
     let negative = [xx, yy, zz].into_iter().any(|moment| moment < 0.0);
+    let tensor = smallest_eigenvalue([xx, yy, zz], [-xy, -xz, -yz]);
+    let usable = tensor >= -tolerance && !negative;
     if smallest >= -tolerance && !negative {
         return;
     }
@@ -55,15 +58,16 @@ pub(crate) fn check(reading: &mut Reading, inertia: &[f64; 6]) {
     } else {
         "the products are too large for the moments".to_string()
     };
-    let label = reading.label();
-    reading
-        .diagnostics
-        .error(
-            Code::ImpossibleInertia,
-            span,
-            format!("no body has the inertia of {label}: {reason}"),
-        )
-        .help("check the order xx, yy, zz, xy, xz, yz and the units");
+    let message = format!("no body has the inertia of {}: {reason}", reading.label());
+    let diagnostics = &mut reading.diagnostics;
+    let diagnostic = if usable {
+        diagnostics
+            .warning(Code::ImpossibleInertia, span, message)
+            .note("it is used as it is given")
+    } else {
+        diagnostics.error(Code::ImpossibleInertia, span, message)
+    };
+    diagnostic.help("check the order xx, yy, zz, xy, xz, yz and the units");
 }
 
 /// One unit in the last digit of a number with a decimal point, 0 for other numbers.

@@ -229,11 +229,15 @@ impl Compiler {
         let Expr::Call { function, span, .. } = call else {
             return Refused;
         };
-        let message = format!(
-            "{}: the function {} is not simulated yet",
-            self.owner,
-            function.name()
-        );
+        let message = if *function == Function::User {
+            format!("{}: USER calls a subroutine, which is not done", self.owner)
+        } else {
+            format!(
+                "{}: the function {} is not simulated yet",
+                self.owner,
+                function.name()
+            )
+        };
         lowering.error(Code::UnsupportedFunction, *span, message, None);
         Refused
     }
