@@ -28,7 +28,7 @@ impl Owner {
 }
 
 /// What a constraint equation is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Form {
     /// An equation between two markers, minus the owner's function of time for a motion.
     Pair {
@@ -115,6 +115,9 @@ pub(crate) fn equations_of(kind: JointKind) -> Vec<Equation> {
         JointKind::Revolute => [point, parallel].concat(),
         JointKind::Translational => [on_axis, &ORIENTATION[..]].concat(),
         JointKind::Cylindrical => [on_axis, parallel].concat(),
+        JointKind::Screw { pitch, start } => {
+            [on_axis, parallel, &[Equation::Thread { pitch, start }]].concat()
+        }
         JointKind::Spherical | JointKind::AtPoint => point.to_vec(),
         JointKind::Planar => [parallel, &POINT[2..]].concat(),
         JointKind::Fixed => [point, &ORIENTATION[..]].concat(),
@@ -133,6 +136,7 @@ pub(crate) fn codirected_axes(kind: JointKind) -> &'static [usize] {
     match kind {
         JointKind::Revolute
         | JointKind::Cylindrical
+        | JointKind::Screw { .. }
         | JointKind::Planar
         | JointKind::ParallelAxes => &[2],
         JointKind::Translational | JointKind::Fixed | JointKind::Orientation => &[0, 2],
@@ -226,6 +230,10 @@ pub(crate) fn name(form: Form) -> String {
             equation: Equation::About(_),
             ..
         } => "angle about Zj".to_owned(),
+        Form::Pair {
+            equation: Equation::Thread { .. },
+            ..
+        } => "thread along Zj".to_owned(),
         Form::Function => "function".to_owned(),
     }
 }

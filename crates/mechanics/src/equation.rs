@@ -8,16 +8,19 @@
 //! axes    g = a_I · b_J          axes of I and of J; a torque along a_I × b_J
 //! ```
 //!
-//! and motions and friction add angles,
+//! and motions, friction and screws add angles,
 //!
 //! ```text
 //! about   g = ±atan2(a_I · b_J, c_I · d_J)     about z of J, or about a pin of a cross
+//! thread  g = d · z_J − start − pitch/2π · (angle about z of J)
 //! ```
 //!
 //! With a multiplier λ an equation applies to I the force and torque `λ ∂g/∂(δr_I, δθ_I)`, and to J
 //! `λ ∂g/∂(δr_J, δθ_J)`. The twelve local motions are `δr_I, δθ_I, δr_J, δθ_J`, rotations along
 //! ground axes. All derivatives are exact, also off the constraint; tests check them by
 //! differences.
+
+use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -30,7 +33,7 @@ pub(crate) type Local = SVector<f64, 12>;
 pub(crate) type LocalMatrix = SMatrix<f64, 12, 12>;
 
 /// The kinds of scalar equations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Equation {
     /// `d · a_J` with axis `0..3` of J.
     Along(usize),
@@ -38,6 +41,13 @@ pub(crate) enum Equation {
     Axes(usize, usize),
     /// Angle of I against J.
     About(Axis),
+    /// Displacement along z of J less what a thread of this pitch makes of the angle about it.
+    Thread {
+        /// Length a turn.
+        pitch: f64,
+        /// Displacement at the angle zero.
+        start: f64,
+    },
 }
 
 /// What an angle is about.
@@ -124,6 +134,7 @@ impl Equation {
             Self::Along(k) => along(i, j, k),
             Self::Axes(k, l) => axes(i, j, k, l),
             Self::About(axis) => about(i, j, axis),
+            Self::Thread { pitch, start } => thread(i, j, pitch, start),
         }
     }
 
@@ -136,6 +147,9 @@ impl Equation {
             Self::Along(k) => along_stiffness(i, j, k),
             Self::Axes(k, l) => axes_stiffness(i, j, k, l),
             Self::About(axis) => about_stiffness(i, j, axis),
+            Self::Thread { pitch, .. } => {
+                along_stiffness(i, j, 2) - about_stiffness(i, j, Axis::Z) * (pitch / TAU)
+            }
         }
     }
 }
@@ -239,6 +253,18 @@ fn about_stiffness(i: &MarkerFrame, j: &MarkerFrame, axis: Axis) -> LocalMatrix 
         - dc * by_cosine.transpose())
 }
 
+fn thread(i: &MarkerFrame, j: &MarkerFrame, pitch: f64, start: f64) -> Row {
+    let (along, about) = (along(i, j, 2), about(i, j, Axis::Z));
+    let factor = pitch / TAU;
+    let value = along.value - start - factor * about.value;
+    Row {
+        // After a whole turn the thread is the same: the turns need not be counted.
+        value: value - pitch * (value / pitch).round(),
+        jacobian: along.jacobian - factor * about.jacobian,
+        bias: along.bias - factor * about.bias,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,7 +293,7 @@ mod tests {
         made
     }
 
-    const ALL: [Equation; 10] = [
+    const ALL: [Equation; 11] = [
         Equation::Along(0),
         Equation::Along(2),
         Equation::Axes(2, 0),
@@ -278,6 +304,10 @@ mod tests {
         Equation::About(Axis::Pin(Pin::HookeJ)),
         Equation::About(Axis::Pin(Pin::UniversalI)),
         Equation::About(Axis::Pin(Pin::UniversalJ)),
+        Equation::Thread {
+            pitch: 3.0,
+            start: 0.4,
+        },
     ];
 
     /// Central differences of `f` over the twelve motions at step 1e-5: truncation 1e-10 times the

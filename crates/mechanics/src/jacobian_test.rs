@@ -32,7 +32,7 @@ fn vector(seed: usize) -> Vector3<f64> {
     )
 }
 
-const KINDS: [JointKind; 14] = [
+const KINDS: [JointKind; 15] = [
     JointKind::Revolute,
     JointKind::Translational,
     JointKind::Cylindrical,
@@ -47,6 +47,10 @@ const KINDS: [JointKind; 14] = [
     JointKind::Orientation,
     JointKind::ParallelAxes,
     JointKind::Perpendicular,
+    JointKind::Screw {
+        pitch: 3.0,
+        start: 0.4,
+    },
 ];
 
 /// A function of two measures and time: `sin(m0) m1² + t`.

@@ -77,7 +77,7 @@ pub struct Marker {
 }
 
 /// The kinds of joints and joint primitives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
     /// Origins coincide, z axes parallel: turns about z.
     Revolute,
@@ -91,6 +91,13 @@ pub enum JointKind {
     Planar,
     /// Origins and axes coincide.
     Fixed,
+    /// As cylindrical, and a thread: I moves along z by `pitch` while it turns about z once.
+    Screw {
+        /// Length a turn, positive for a right-hand thread.
+        pitch: f64,
+        /// Displacement of I along z at the angle zero.
+        start: f64,
+    },
     /// Origins coincide, x of I perpendicular to y of J.
     Hooke,
     /// Origins coincide, z of I perpendicular to z of J.

@@ -1,0 +1,353 @@
+//! Dynamics between output times: steps, outputs within them, restarts.
+
+use nalgebra::Vector3;
+use numerics::bdf::{self, Bdf};
+
+use super::failure::jammed;
+use super::report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
+use super::{Engine, Simulation};
+use crate::dynamics::{Dynamics, Formulation, Work};
+use crate::instant::{Failure, Instant};
+use crate::rotation::Quaternion;
+use crate::state::{POSITIONS, VELOCITIES};
+
+/// Part of the error tolerance that the positions of I3 may use. Its test leaves velocities out,
+/// which lose an order; with this part they, too, stay near the tolerance.
+const INDEX3_SHARE: f64 = 0.1;
+
+impl Simulation {
+    /// Integrates to `end`, reporting every accepted step and the states at the rising `outputs`
+    /// (the last of which should be `end`).
+    ///
+    /// # Errors
+    /// [`RunError`]; the state is then that of the last good output.
+    pub fn run(
+        &mut self,
+        end: f64,
+        outputs: &[f64],
+        settings: &Settings,
+        observer: &mut impl Observer,
+    ) -> Result<Ending, RunError> {
+        let limits = bdf::Settings {
+            highest_order: settings.highest_order,
+            longest_step: settings.longest_step,
+            shortest_step: settings.shortest_step,
+        };
+        let mut engine = match self.engine.take() {
+            Some(engine) => engine,
+            None => Engine::new(self, limits),
+        };
+        let ending = self.integrate(&mut engine, end, outputs, settings, limits, observer);
+        self.engine = Some(engine);
+        ending
+    }
+
+    fn integrate(
+        &mut self,
+        engine: &mut Engine,
+        end: f64,
+        outputs: &[f64],
+        settings: &Settings,
+        limits: bdf::Settings,
+        observer: &mut impl Observer,
+    ) -> Result<Ending, RunError> {
+        let Engine {
+            before,
+            instant,
+            dynamics,
+            gains,
+            bdf,
+        } = engine;
+        // Changed functions may have left the state off the constraints by rounding.
+        self.settle(instant)?;
+        let jam = gains.look(&mut self.system, &self.multipliers);
+        self.refuse_jam(jam)?;
+        self.system.observe_loads(&self.multipliers);
+        dynamics.start(&self.system, settings.formulation, self.scales);
+        dynamics.tolerance = match settings.formulation {
+            Formulation::Si2 => settings.error,
+            Formulation::I3 => INDEX3_SHARE * settings.error,
+        };
+        dynamics.newton_iterations = settings.newton_iterations;
+        dynamics.scales.observe(self.state.velocities());
+        dynamics.multipliers.copy_from_slice(&self.multipliers);
+        bdf.set_settings(limits);
+        let slope = self.slope();
+        let first = match settings.first_step {
+            Some(first) => first,
+            None => self.first_step(instant, dynamics, &slope, end, settings),
+        };
+        bdf.start(self.state.time, &self.state.values, &slope, first);
+        let mut next = 0;
+        let mut ending = Ending::Completed;
+        let (mut crossed, mut crossing) = (f64::NEG_INFINITY, false);
+        while bdf.time() < end && ending == Ending::Completed {
+            let advanced = bdf.advance(dynamics, end);
+            self.scales = dynamics.scales;
+            self.statistics = {
+                let rough = self.statistics.rough_outputs;
+                total(before, bdf.statistics(), dynamics.work, rough)
+            };
+            if let Err(error) = advanced {
+                // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
+                // has only positions to meet.
+                let further = bdf.time() > crossed;
+                if settings.formulation == Formulation::I3 || !further {
+                    let jam = gains.explain(&mut dynamics.system, &dynamics.multipliers);
+                    return Err(
+                        jam.map_or_else(|| self.run_error(&error), |jam| jammed(bdf.time(), &jam))
+                    );
+                }
+                crossed = bdf.time();
+                self.restart(bdf, dynamics, instant, settings)?;
+                dynamics.cross();
+                crossing = true;
+                continue;
+            }
+            let jam = gains.look_seldom(&mut dynamics.system, &dynamics.multipliers);
+            let report = StepReport {
+                time: bdf.time(),
+                size: bdf.last_size(),
+                order: bdf.order(),
+                statistics: self.statistics,
+            };
+            while next < outputs.len() && outputs[next] <= bdf.time() {
+                self.take(bdf, dynamics, outputs[next], instant)?;
+                next += 1;
+                if !observer.output(&self.snapshot()) {
+                    ending = Ending::Stopped;
+                    break;
+                }
+            }
+            if !observer.step(&report) {
+                ending = Ending::Stopped;
+            }
+            // After the outputs within the step, whose end is not good any more.
+            if let Ok(Some(jam)) = jam {
+                return Err(jammed(bdf.time(), &jam));
+            }
+            // Only now: outputs within the step needed its past.
+            if crossing && !dynamics.crosses() {
+                crossing = false;
+                self.restart(bdf, dynamics, instant, settings)?;
+            }
+        }
+        if ending == Ending::Completed && self.state.time != end {
+            self.take(bdf, dynamics, end, instant)?;
+        }
+        self.system.history.clone_from(&dynamics.system.history);
+        Ok(ending)
+    }
+
+    /// Starts the integrator anew from where it is, without its past.
+    fn restart(
+        &mut self,
+        bdf: &mut Bdf,
+        dynamics: &mut Dynamics,
+        instant: &mut Instant,
+        settings: &Settings,
+    ) -> Result<(), RunError> {
+        self.take(bdf, dynamics, bdf.time(), instant)?;
+        dynamics.multipliers.copy_from_slice(&self.multipliers);
+        let first = 1e-3 * settings.longest_step;
+        let slope = self.slope();
+        bdf.start(self.state.time, &self.state.values, &slope, first);
+        Ok(())
+    }
+
+    /// Brings the state onto the constraints and solves its accelerations and reactions.
+    fn settle(&mut self, instant: &mut Instant) -> Result<(), RunError> {
+        self.system
+            .set_bristles(&self.bristle_past, self.bristle_gamma);
+        let solved = instant
+            .project(
+                &mut self.system,
+                &mut self.state,
+                &self.multipliers,
+                self.scales.length,
+            )
+            .and_then(|()| {
+                instant.accelerations(
+                    &mut self.system,
+                    &self.state,
+                    &mut self.accelerations,
+                    &mut self.multipliers,
+                )
+            });
+        let Err(failure) = solved else {
+            return Ok(());
+        };
+        let bristles = !self.state.bristle_range().is_empty() && self.bristle_gamma > 0.0;
+        let rough = matches!(failure, Failure::NotConverged { .. }) && bristles;
+        if let Some(jam) = self.jam_behind(&failure, instant) {
+            return Err(jammed(self.state.time, &jam));
+        }
+        if !rough {
+            return Err(self.error(&failure));
+        }
+        // The step itself had a solution, and its reactions are near.
+        self.statistics.rough_outputs += 1;
+        self.multipliers.copy_from_slice(instant.guess());
+        self.accelerations
+            .copy_from_slice(instant.guessed_accelerations());
+        Ok(())
+    }
+
+    /// State, accelerations and reactions at `time` within the last accepted step.
+    fn take(
+        &mut self,
+        bdf: &Bdf,
+        dynamics: &Dynamics,
+        time: f64,
+        instant: &mut Instant,
+    ) -> Result<(), RunError> {
+        bdf.interpolate(time, &mut self.state.values);
+        self.state.time = time;
+        self.relax_bristles(bdf, time);
+        // The reactions of the step are near: bristles may know several solutions.
+        self.multipliers.copy_from_slice(&dynamics.multipliers);
+        let velocities = self.state.velocity_range();
+        bdf.interpolate_slope(time, velocities, &mut self.accelerations);
+        for body in 0..self.state.bodies() {
+            let place = POSITIONS * body + 3;
+            let q = self.state.orientation(body).normalized();
+            q.write(&mut self.state.values[place..place + 4]);
+        }
+        self.system.history.clone_from(&dynamics.system.history);
+        // Creep within the step counts from its start where the joint was stuck there, and back
+        // from its end where the stick began within.
+        for (memory, previous) in self
+            .system
+            .history
+            .frictions
+            .iter_mut()
+            .zip(&dynamics.previous)
+        {
+            if time < bdf.time() && previous.stuck {
+                *memory = *previous;
+            }
+        }
+        self.settle(instant)?;
+        let range = self.state.bristle_range();
+        let deflections = &mut self.state.values[range];
+        self.system
+            .write_bristles(&self.multipliers, Some(deflections), None);
+        Ok(())
+    }
+
+    /// Takes the formula of the last step for the bristles at `time` within it.
+    ///
+    /// Given the deflection, a small change of the load changes its rate by much, and the damping
+    /// of the bristles makes a force of that: reactions at an instant need not have a solution
+    /// where those of a step have one. So the deflection may follow the reactions at an output by
+    /// as much as it does in a step: `z = past + γ z'` through the interpolated `z` and `z'`.
+    fn relax_bristles(&mut self, bdf: &Bdf, time: f64) {
+        let range = self.state.bristle_range();
+        self.bristle_gamma = bdf.last_gamma();
+        bdf.interpolate_slope(time, range.clone(), &mut self.bristle_past);
+        for (past, deflection) in self.bristle_past.iter_mut().zip(&self.state.values[range]) {
+            *past = deflection - self.bristle_gamma * *past;
+        }
+    }
+
+    /// A first step whose error by the formula of order one is half the tolerance, from the second
+    /// derivative; that of the velocities comes from the accelerations a little later.
+    fn first_step(
+        &self,
+        instant: &mut Instant,
+        dynamics: &Dynamics,
+        slope: &[f64],
+        end: f64,
+        settings: &Settings,
+    ) -> f64 {
+        let longest = settings.longest_step.min(end - self.state.time);
+        let ahead = 1e-3 * longest;
+        match self.curvature_error(instant, dynamics, slope, ahead) {
+            Some(error) => {
+                let size = (0.5 / error.max(1e-300)).sqrt();
+                size.min(0.1 * longest).max(settings.shortest_step)
+            }
+            None => ahead,
+        }
+    }
+
+    /// Error of a step of one by the formula of order one, in units of the tolerance: half the
+    /// second derivative, from the slope a time `ahead`. None where that cannot be found.
+    fn curvature_error(
+        &self,
+        instant: &mut Instant,
+        dynamics: &Dynamics,
+        slope: &[f64],
+        ahead: f64,
+    ) -> Option<f64> {
+        let mut later = self.clone();
+        later.state.time += ahead;
+        let step: Vec<f64> = self.state.velocities().iter().map(|u| u * ahead).collect();
+        later.state.displace(&step);
+        let velocities = later.state.velocities_mut().iter_mut();
+        for (u, a) in velocities.zip(&self.accelerations) {
+            *u += ahead * a;
+        }
+        instant
+            .accelerations(
+                &mut later.system,
+                &later.state,
+                &mut later.accelerations,
+                &mut later.multipliers,
+            )
+            .ok()?;
+        let half_curvature: Vec<f64> = later
+            .slope()
+            .iter()
+            .zip(slope)
+            .map(|(b, a)| 0.5 * (b - a) / ahead)
+            .collect();
+        let error = bdf::System::norm(dynamics, &half_curvature);
+        error.is_finite().then_some(error)
+    }
+
+    /// Time derivative of the integrator's vector, at the instant solved last.
+    fn slope(&mut self) -> Vec<f64> {
+        let (state, values) = (&self.state, &self.state.values);
+        let mut slope = Vec::with_capacity(values.len());
+        for (body, u) in state.velocities().chunks_exact(VELOCITIES).enumerate() {
+            slope.extend_from_slice(&u[..3]);
+            let half = Quaternion {
+                w: 0.0,
+                v: 0.5 * Vector3::from_column_slice(&u[3..]),
+            };
+            let rate = half.times(&state.orientation(body));
+            slope.extend_from_slice(&[rate.w, rate.v.x, rate.v.y, rate.v.z]);
+        }
+        slope.extend_from_slice(&self.accelerations);
+        let (bristles, works) = (state.bristle_range(), state.work_range());
+        slope.resize(values.len(), 0.0);
+        self.system
+            .write_bristles(&self.multipliers, None, Some(&mut slope[bristles]));
+        self.system
+            .write_powers(&self.multipliers, &mut slope[works]);
+        slope
+    }
+}
+
+fn total(
+    before: &Statistics,
+    steps: bdf::Statistics,
+    work: Work,
+    rough_outputs: usize,
+) -> Statistics {
+    Statistics {
+        steps: bdf::Statistics {
+            steps: before.steps.steps + steps.steps,
+            rejections: before.steps.rejections + steps.rejections,
+            failures: before.steps.failures + steps.failures,
+            starts: before.steps.starts + steps.starts,
+        },
+        work: Work {
+            residuals: before.work.residuals + work.residuals,
+            factorisations: before.work.factorisations + work.factorisations,
+            index3_steps: before.work.index3_steps + work.index3_steps,
+        },
+        rough_outputs,
+    }
+}

@@ -1,0 +1,203 @@
+//! A model run through time: assembly, dynamics between output times, snapshots.
+
+mod energy;
+mod failure;
+mod integration;
+mod report;
+mod statics;
+
+use numerics::bdf::{self, Bdf};
+
+pub use energy::{gravity_energy, kinetic_energy};
+pub use report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
+
+use crate::assembly::{Assembly, AssemblyError};
+use crate::dynamics::{Dynamics, Scales};
+use crate::gain::GainWatch;
+use crate::instant::Instant;
+use crate::model::{Element, Model};
+use crate::snapshot::Snapshot;
+use crate::state::State;
+use crate::system::System;
+
+/// A model with its state.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    system: System,
+    state: State,
+    accelerations: Vec<f64>,
+    multipliers: Vec<f64>,
+    scales: Scales,
+    statistics: Statistics,
+    /// What the formula said of the bristles at the present instant, see [`Simulation::take`].
+    bristle_past: Vec<f64>,
+    bristle_gamma: f64,
+    /// Storage and matrix patterns, kept between runs of the same equations.
+    engine: Option<Engine>,
+}
+
+/// What a run needs beside the simulation's state.
+#[derive(Clone, Debug)]
+struct Engine {
+    /// Counts of engines before this one.
+    before: Statistics,
+    instant: Instant,
+    dynamics: Dynamics,
+    gains: GainWatch,
+    bdf: Bdf,
+}
+
+impl Engine {
+    fn new(simulation: &Simulation, limits: bdf::Settings) -> Self {
+        let system = &simulation.system;
+        Self {
+            before: simulation.statistics,
+            instant: Instant::new(system),
+            dynamics: Dynamics::new(system.clone(), simulation.scales),
+            gains: GainWatch::new(system),
+            bdf: Bdf::new(simulation.state.values.len(), limits),
+        }
+    }
+}
+
+impl Simulation {
+    /// A model as it is given, at time zero. `second` is one second in the model's unit of time;
+    /// one radian per second is the rate below which velocities count as small.
+    #[must_use]
+    pub fn new(model: Model, second: f64) -> Self {
+        let system = System::new(model);
+        let scales = Scales {
+            length: system.length_scale(),
+            rate: 1.0 / second,
+        };
+        let mut state = system.given_state(0.0);
+        state.extend(system.bristle_count(), system.work_count());
+        Self {
+            bristle_past: vec![0.0; system.bristle_count()],
+            bristle_gamma: 0.0,
+            state,
+            accelerations: vec![0.0; system.velocity_count()],
+            multipliers: Vec::new(),
+            scales,
+            statistics: Statistics::default(),
+            engine: None,
+            system,
+        }
+    }
+
+    /// Brings the given positions and velocities onto the constraints and drops redundant ones.
+    ///
+    /// # Errors
+    /// [`AssemblyError`] where joints contradict one another.
+    pub fn assemble(&mut self) -> Result<Assembly, AssemblyError> {
+        let assembly = self.system.assemble_initial(&mut self.state)?;
+        self.multipliers = vec![0.0; self.system.row_count()];
+        self.engine = None;
+        Ok(assembly)
+    }
+
+    /// Solves accelerations, reactions and friction of the present instant.
+    ///
+    /// # Errors
+    /// [`RunError`] where they have no unique solution.
+    pub fn solve_instant(&mut self) -> Result<(), RunError> {
+        let mut instant = Instant::new(&self.system);
+        self.system
+            .set_bristles(&self.bristle_past, self.bristle_gamma);
+        let solved = instant.accelerations(
+            &mut self.system,
+            &self.state,
+            &mut self.accelerations,
+            &mut self.multipliers,
+        );
+        // A jam shows as reactions without a solution, or as one that makes no sense.
+        let jam = GainWatch::new(&self.system).look(&mut self.system, &self.multipliers);
+        self.refuse_jam(jam)?;
+        solved.map_err(|failure| self.unsolved(&failure, &instant))
+    }
+
+    /// Replaces element parameters, functions and what is active; bodies, markers and joints must be
+    /// the same. Where other constraints are active than before, the model is assembled again from
+    /// where it stands.
+    ///
+    /// # Errors
+    /// [`AssemblyError`] where constraints that are active now contradict one another.
+    ///
+    /// # Panics
+    /// When the numbering of the equations would change.
+    pub fn replace_model(&mut self, model: Model) -> Result<Option<Assembly>, AssemblyError> {
+        let constraints = |model: &Model| -> Vec<Element> {
+            let resting = model.inactive.iter().copied();
+            let free = |e: &Element| matches!(e, Element::Force(_) | Element::Friction(_));
+            resting.filter(|element| !free(element)).collect()
+        };
+        let same = constraints(&model) == constraints(self.model());
+        let same_active = model.inactive == self.model().inactive;
+        if !(self.system.replace_model(model) && same_active) {
+            self.engine = None;
+        }
+        if same {
+            return Ok(None);
+        }
+        let assembly = self.system.assemble_again(&mut self.state)?;
+        self.multipliers = vec![0.0; self.system.row_count()];
+        Ok(Some(assembly))
+    }
+
+    /// Puts the model into another state and history, such as one read from a file of results.
+    pub fn set_state(&mut self, state: State, creep: &[[f64; 3]]) {
+        self.state = state;
+        let (bristles, works) = (self.system.bristle_count(), self.system.work_count());
+        self.state.extend(bristles, works);
+        self.freeze_bristles();
+        self.system.evaluate(&self.state, false);
+        self.system.start_history();
+        for (memory, creep) in self.system.history.frictions.iter_mut().zip(creep) {
+            memory.creep = *creep;
+        }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        self.system.model()
+    }
+
+    /// The equations.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Present state.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Counts of the work done so far.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// The present instant, as it was solved last.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot<'_> {
+        Snapshot::new(
+            &self.system,
+            &self.state,
+            &self.accelerations,
+            &self.multipliers,
+        )
+    }
+
+    /// The bristles keep their deflection at the present instant.
+    fn freeze_bristles(&mut self) {
+        let range = self.state.bristle_range();
+        self.bristle_past.copy_from_slice(&self.state.values[range]);
+        self.bristle_gamma = 0.0;
+        self.system
+            .set_bristles(&self.bristle_past, self.bristle_gamma);
+    }
+}

@@ -1,0 +1,88 @@
+//! How to integrate, and what is told of it.
+
+use numerics::bdf;
+
+use crate::dynamics::{Formulation, Work};
+use crate::model::Label;
+use crate::snapshot::Snapshot;
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// How constraints enter.
+    pub formulation: Formulation,
+    /// Error tolerance per step: relative to the model's length for positions, radians for
+    /// rotations, and with SI2 relative to the largest velocities for velocities.
+    pub error: f64,
+    /// Highest order of the formulas, 1 to 5.
+    pub highest_order: usize,
+    /// Longest step.
+    pub longest_step: f64,
+    /// Shortest step before the integration is given up.
+    pub shortest_step: f64,
+    /// Step to start with, where given.
+    pub first_step: Option<f64>,
+    /// Newton iterations per step before the step is tried again with a new matrix or shorter.
+    pub newton_iterations: usize,
+}
+
+/// What the integrator did so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Steps, rejections and starts.
+    pub steps: bdf::Statistics,
+    /// Residuals and factorisations.
+    pub work: Work,
+    /// Outputs whose accelerations and reactions are those of the step around them, because bristles
+    /// that are not passive left the instant without a solution.
+    pub rough_outputs: usize,
+}
+
+/// An accepted step, for tables and progress.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Time at its end.
+    pub time: f64,
+    /// Its length.
+    pub size: f64,
+    /// Order of the next step.
+    pub order: usize,
+    /// Counts so far.
+    pub statistics: Statistics,
+}
+
+/// Is told of steps and outputs while a simulation runs.
+pub trait Observer {
+    /// After every accepted step; false stops the run.
+    fn step(&mut self, report: &StepReport) -> bool;
+    /// At every output time; false stops the run.
+    fn output(&mut self, snapshot: &Snapshot<'_>) -> bool;
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// At the end time.
+    Completed,
+    /// The observer stopped it.
+    Stopped,
+}
+
+/// A run failed; everything up to its time was reported to the observer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunError {
+    /// Time of the last good state.
+    pub time: f64,
+    /// What happened, in mechanical words.
+    pub message: String,
+    /// The element that it is about, where there is one.
+    pub element: Option<Label>,
+}
+
+impl std::fmt::Display for RunError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "at time {}: {}", self.time, self.message)
+    }
+}
+
+impl std::error::Error for RunError {}
