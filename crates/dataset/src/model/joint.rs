@@ -27,7 +27,7 @@ pub enum JointKind {
     Universal,
     /// Constant velocity; never in a dataset without errors.
     ConstantVelocity,
-    /// Screw; never in a dataset without errors.
+    /// As cylindrical, with `z_I` displaced by PITCH along `z_J` for every turn about it.
     Screw,
     /// Rack and pinion; never in a dataset without errors.
     RackPinion,
@@ -102,6 +102,8 @@ pub struct Joint {
     pub i: u32,
     /// The J marker, on another part.
     pub j: u32,
+    /// PITCH of a screw joint: length a turn, not zero, positive for a right-hand thread.
+    pub pitch: Option<f64>,
     /// IC of a translational joint, ICTRAN of a cylindrical one.
     pub ic_translation: Option<InitialCondition>,
     /// IC of a revolute joint, ICROT of a cylindrical one.

@@ -9,7 +9,7 @@ use crate::model::{
 use crate::reading::Reading;
 
 const LEGACY: &str = "friction inside JOINT is that of the old Fortran solver; use FRICTION";
-const NO_SCREW: &str = "screws and racks are not simulated yet";
+const NO_RACK: &str = "use COUPLER for a rack and its pinion";
 
 pub(super) const JOINT_KEYWORDS: &[Keyword] = &[
     keyword("CONVEL", Kind::Flag),
@@ -28,8 +28,8 @@ pub(super) const JOINT_KEYWORDS: &[Keyword] = &[
     keyword("IC", Kind::Reals(1, 2)),
     abbreviated("ICTRAN", "ICT", Kind::Reals(1, 2)),
     abbreviated("ICROT", "ICR", Kind::Reals(1, 2)),
-    abbreviated("PITCH", "PI", Kind::Unsupported(NO_SCREW)),
-    keyword("PD", Kind::Unsupported(NO_SCREW)),
+    abbreviated("PITCH", "PI", Kind::Real),
+    keyword("PD", Kind::Unsupported(NO_RACK)),
     keyword("FRICTION", Kind::Unsupported(LEGACY)),
     keyword("DELTA_V", Kind::Unsupported(LEGACY)),
     keyword("HEIGHT", Kind::Unsupported(LEGACY)),
@@ -69,12 +69,27 @@ pub(super) fn joint(reading: &mut Reading, builder: &mut Builder) {
         // The identifier is known, so that references to it are not reported as well.
         return push(reading, builder, JointKind::Fixed);
     };
-    if let JointKind::ConstantVelocity | JointKind::RackPinion | JointKind::Screw = kind {
+    if let JointKind::ConstantVelocity | JointKind::RackPinion = kind {
         let span = reading.place(kind.keyword());
         let message = format!("joints of type {} are not simulated yet", kind.keyword());
-        reading
+        let error = reading
             .diagnostics
             .error(Code::UnsupportedArgument, span, message);
+        if kind == JointKind::RackPinion {
+            error.help(
+                "write a COUPLER of the TRANSLATIONAL joint of the rack and the REVOLUTE joint of \
+                 the pinion, with SCALES = 1, -PD/2 or 1, PD/2",
+            );
+        }
+    }
+    if kind == JointKind::Screw {
+        reading.require("PITCH");
+        if reading.real("PITCH") == Some(0.0) {
+            let span = reading.place("PITCH");
+            reading
+                .diagnostics
+                .error(Code::OutOfRange, span, "PITCH must not be 0");
+        }
     }
     for (keyword, allowed) in [
         (
@@ -83,6 +98,7 @@ pub(super) fn joint(reading: &mut Reading, builder: &mut Builder) {
         ),
         ("ICTRAN", matches!(kind, JointKind::Cylindrical)),
         ("ICROT", matches!(kind, JointKind::Cylindrical)),
+        ("PITCH", matches!(kind, JointKind::Screw)),
     ] {
         if reading.has(keyword) && !allowed {
             let span = reading.place(keyword);
@@ -90,7 +106,7 @@ pub(super) fn joint(reading: &mut Reading, builder: &mut Builder) {
             let error = reading
                 .diagnostics
                 .error(Code::ConflictingArguments, span, message);
-            if matches!(kind, JointKind::Cylindrical) {
+            if matches!(kind, JointKind::Cylindrical) && keyword == "IC" {
                 error.help("write ICTRAN for the displacement and ICROT for the angle");
             }
         }
@@ -114,6 +130,7 @@ fn push(reading: &mut Reading, builder: &mut Builder, kind: JointKind) {
     let joint = Joint {
         header: reading.header(),
         kind,
+        pitch: reading.real("PITCH"),
         ic_translation: translation,
         ic_rotation: rotation,
         i: builder.require(reading, "I", Target::Marker),

@@ -2,9 +2,10 @@
 
 use dataset::{Coupler, Joint};
 use mechanics::expression::{Binary, Input, Operation, Program, Register};
-use mechanics::model::{GeneralConstraint, Marker, Model};
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use mechanics::model::{GeneralConstraint, Model};
+use nalgebra::{Rotation3, Vector3};
 
+use super::pose::Pose;
 use super::{Lowering, label};
 
 impl Lowering<'_> {
@@ -61,47 +62,15 @@ impl Lowering<'_> {
         let [at_i, at_j] = [i, j].map(|marker| Pose::of(model, marker));
         let mut zero = model.markers[j].clone();
         if rotation {
-            // The angle from x of J to x of I about z of J.
-            let x = at_i.axes.column(0);
-            let angle = x
-                .dot(&at_j.axes.column(1))
-                .atan2(x.dot(&at_j.axes.column(0)));
+            let angle = at_i.angle_about_z(&at_j);
             zero.axes *= Rotation3::from_axis_angle(&Vector3::z_axis(), angle).matrix();
         } else {
-            let distance = (at_i.origin - at_j.origin).dot(&at_j.axes.column(2));
+            let distance = at_i.distance_along_z(&at_j);
             zero.offset += distance * zero.axes.column(2);
         }
         model.markers.push(zero);
         let zero = model.markers.len() - 1;
         self.measures
             .about_or_along_z(rotation, i, zero, self.ground)
-    }
-}
-
-/// Where a marker stands as the dataset places the parts, in ground.
-struct Pose {
-    origin: Vector3<f64>,
-    axes: Matrix3<f64>,
-}
-
-impl Pose {
-    fn of(model: &Model, marker: usize) -> Self {
-        let Marker {
-            body, offset, axes, ..
-        } = model.markers[marker];
-        match body {
-            None => Self {
-                origin: offset,
-                axes,
-            },
-            Some(body) => {
-                let body = &model.bodies[body];
-                let turn = body.orientation.matrix();
-                Self {
-                    origin: body.origin + turn * (body.centre + offset),
-                    axes: turn * axes,
-                }
-            }
-        }
     }
 }

@@ -1,8 +1,11 @@
 //! JOINT and JPRIM to joints.
 
+use std::f64::consts::TAU;
+
 use dataset::{Code, InitialCondition, JointKind, PrimitiveKind};
 use mechanics::model::{self, Joint, JointStart};
 
+use super::pose::Pose;
 use super::{Lowering, label};
 
 impl Lowering<'_> {
@@ -10,7 +13,7 @@ impl Lowering<'_> {
     pub(super) fn joints(&mut self, model: &mut model::Model) {
         let dataset = self.dataset;
         for joint in &dataset.joints {
-            let Some(kind) = joint_kind(joint.kind) else {
+            let Some(kind) = self.joint_kind(model, joint) else {
                 self.error(
                     Code::UnsupportedStatement,
                     joint.header.span,
@@ -45,18 +48,29 @@ impl Lowering<'_> {
     }
 }
 
-fn joint_kind(kind: JointKind) -> Option<model::JointKind> {
-    Some(match kind {
-        JointKind::Revolute => model::JointKind::Revolute,
-        JointKind::Translational => model::JointKind::Translational,
-        JointKind::Cylindrical => model::JointKind::Cylindrical,
-        JointKind::Spherical => model::JointKind::Spherical,
-        JointKind::Planar => model::JointKind::Planar,
-        JointKind::Fixed => model::JointKind::Fixed,
-        JointKind::Hooke => model::JointKind::Hooke,
-        JointKind::Universal => model::JointKind::Universal,
-        JointKind::ConstantVelocity | JointKind::Screw | JointKind::RackPinion => return None,
-    })
+impl Lowering<'_> {
+    fn joint_kind(&self, model: &model::Model, joint: &dataset::Joint) -> Option<model::JointKind> {
+        Some(match joint.kind {
+            JointKind::Revolute => model::JointKind::Revolute,
+            JointKind::Translational => model::JointKind::Translational,
+            JointKind::Cylindrical => model::JointKind::Cylindrical,
+            JointKind::Spherical => model::JointKind::Spherical,
+            JointKind::Planar => model::JointKind::Planar,
+            JointKind::Fixed => model::JointKind::Fixed,
+            JointKind::Hooke => model::JointKind::Hooke,
+            JointKind::Universal => model::JointKind::Universal,
+            JointKind::Screw => {
+                let pitch = joint.pitch?;
+                let [i, j] = [joint.i, joint.j].map(|id| Pose::of(model, self.marker_place(id)));
+                let turns = i.angle_about_z(&j) / TAU;
+                model::JointKind::Screw {
+                    pitch,
+                    start: i.distance_along_z(&j) - pitch * turns,
+                }
+            }
+            JointKind::ConstantVelocity | JointKind::RackPinion => return None,
+        })
+    }
 }
 
 fn primitive_kind(kind: PrimitiveKind) -> model::JointKind {

@@ -18,6 +18,7 @@ mod joints;
 mod measures;
 mod motions;
 mod outputs;
+mod pose;
 mod results;
 
 use std::collections::{BTreeSet, HashSet};

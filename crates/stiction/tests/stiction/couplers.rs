@@ -1,4 +1,4 @@
-//! COUPLER against closed forms: gears, a winch and a differential.
+//! COUPLER and SCREW against closed forms: gears, a winch, a differential and a nut.
 
 use results::ResFile;
 
@@ -87,4 +87,48 @@ fn a_differential_splits_the_torque() {
             "PART/{part}: {found} {wanted}"
         );
     }
+}
+
+#[test]
+fn a_nut_runs_down_its_screw() {
+    // Mass 4, inertia 0.02 about the axis, pitch 0.5: a = -g/(1 + J (2 pi/p)^2/m), over many turns
+    // from an angle of 180 degrees.
+    let text = "nut
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=4, CM=20, IP=0.02, 0.02, 0.02, QG=0, 0, 3
+MARKER/20, PART=2
+MARKER/21, PART=2, REULER=180D, 0, 0
+JOINT/1, SCREW, I=21, J=1, PITCH=0.5
+ACCGRAV/KGRAV=-10
+REQUEST/1, F2=JOINT(1,0,4,0)\\F3=JOINT(1,0,8,0)\\F4=AZ(20,1)\\
+END
+";
+    let t = 3.0;
+    let results = run_text(text, t, 30, Some(1e-8));
+    let per_length = std::f64::consts::TAU / 0.5;
+    let acceleration = -10.0 / (1.0 + 0.02 * per_length * per_length / 4.0);
+    let wanted = 3.0 + 0.5 * acceleration * t * t;
+    let found = last(&results, "PART_2_XFORM.Z");
+    // The integrator's error of 1e-8 a step over some hundred steps.
+    assert!((found - wanted).abs() < 1e-5, "{found} {wanted}");
+    let turned = last(&results, "REQUEST_1.F4");
+    assert!(
+        (turned - per_length * (found - 3.0)).abs() < 1e-7,
+        "{turned}"
+    );
+    assert!(turned.abs() > 5.0 * std::f64::consts::TAU);
+    // The thread carries what does not accelerate and turns the nut.
+    let (force, torque) = (
+        last(&results, "REQUEST_1.F2"),
+        last(&results, "REQUEST_1.F3"),
+    );
+    assert!(
+        (force - 4.0 * (10.0 + acceleration)).abs() < 1e-6,
+        "{force}"
+    );
+    assert!(
+        (torque - 0.02 * per_length * acceleration).abs() < 1e-6,
+        "{torque}"
+    );
 }
