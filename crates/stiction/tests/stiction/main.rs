@@ -7,6 +7,7 @@
 
 mod adams;
 mod applied_forces;
+mod bristles;
 mod commands;
 mod corpus;
 mod couplers;
