@@ -1,17 +1,17 @@
 //! Numbers as the manual prints them: with so few digits that a run elsewhere prints the same.
 
-/// A value with five significant digits.
+/// A value with five significant digits; what is of the size of rounding is zero.
 ///
 /// ```
 /// use verification::number::value;
-/// assert_eq!(value(0.0), "0");
+/// assert_eq!(value(-4e-17), "0");
 /// assert_eq!(value(-2.163_122_8), "-2.1631");
 /// assert_eq!(value(3.384_218_7e-3), "3.3842e-3");
 /// ```
 #[must_use]
 pub fn value(x: f64) -> String {
     let size = x.abs();
-    if x == 0.0 {
+    if size < 1e-15 {
         "0".into()
     } else if (1e-2..1e5).contains(&size) {
         let before = size.log10().floor() as i32;
