@@ -238,13 +238,29 @@ fn a_field_is_its_matrix_by_columns() {
 , 0, 0, 0, 0, 50, 0
 , 0, 0, 0, 0, 0, 60
 , CRATIO = 0.1, LENGTH = 1.9, 0.1, 0, 0, 0, 0, FORCE = 1, 0, 0, 0, 0, 0.06";
-    let results = tip(element, "FX=2\\");
+    let requests = "FX=2\\
+REQUEST/2, F2=FIELD(1,0,2,1)\\F3=FIELD(1,1,8,1)\\F4=GFORCE(1,0,2,1)\\F6=GFORCE(1,1,2,1)\\
+, F7=GFORCE(1,1,8,1)\\";
+    let results = tip(element, requests);
     // 100 (x - 1.9) = 1 + 2; 10 (x - 1.9) + 200 (y - 0.1) = 0; 60 c = 0.06.
     let (x, y) = (1.93, 0.1 - 10.0 * 0.03 / 200.0);
     for (name, wanted) in [("F4", x), ("F2", y), ("F3", 0.0), ("F7", 0.001)] {
         let found = last(&results, &format!("REQUEST_1.{name}"));
         // The imbalance left by the static solver, 1e-10 of the forces.
         assert!((found - wanted).abs() < 1e-9, "{name}: {found} {wanted}");
+    }
+    // The field balances the load; on J its force acts with the arm (x, y), on JFLOAT the load has
+    // none.
+    let forces = [
+        ("F2", -2.0),
+        ("F3", -2.0 * y),
+        ("F4", 2.0),
+        ("F6", -2.0),
+        ("F7", 0.0),
+    ];
+    for (name, wanted) in forces {
+        let found = last(&results, &format!("REQUEST_2.{name}"));
+        assert!((found - wanted).abs() < 1e-8, "{name}: {found} {wanted}");
     }
 }
 
