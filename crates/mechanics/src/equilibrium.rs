@@ -66,6 +66,7 @@ pub(crate) struct Statics {
     right: Vec<f64>,
     change: Vec<f64>,
     next: Vec<f64>,
+    along: Vec<f64>,
     zero: Vec<f64>,
     /// A force that is typical of the model: the imbalances are compared by it.
     force: f64,
@@ -81,6 +82,7 @@ impl Statics {
             right: vec![0.0; size],
             change: vec![0.0; size],
             next: vec![0.0; size],
+            along: vec![0.0; size],
             zero: vec![0.0; n],
             force: 1.0,
         }
@@ -162,10 +164,8 @@ impl Statics {
             if solved.is_ok() {
                 self.factors.solve(&mut self.change);
             }
-            let work: f64 = (0..n).map(|k| self.change[k] * residual[k]).sum();
             let fine = solved.is_ok() && self.change.iter().all(|c| c.is_finite());
-            // Work against the unbalanced forces, beyond what meeting the constraints takes.
-            let uphill = work < 0.0 && self.constrained(&residual, length);
+            let uphill = fine && self.curvature() < 0.0;
             if fine && !uphill {
                 let limit = self.limit(settings, n);
                 let mut part = limit;
@@ -219,11 +219,14 @@ impl Statics {
         size(&self.next) < (1.0 - 0.25 * part) * size(&self.change)
     }
 
-    /// Whether the constraints are met so well that the work of a step is that of the forces.
-    fn constrained(&self, residual: &[f64], length: f64) -> bool {
-        residual[self.zero.len()..]
-            .iter()
-            .all(|error| error.abs() <= 1e-6 * length)
+    /// `δᵀKδ` of the step: what the forces do along it once the constraints are met. Below zero it
+    /// leads to an unstable equilibrium.
+    fn curvature(&mut self) -> f64 {
+        let n = self.zero.len();
+        self.along.fill(0.0);
+        self.along[..n].copy_from_slice(&self.change[..n]);
+        self.matrix.multiply(&self.along, &mut self.next);
+        (0..n).map(|k| self.along[k] * self.next[k]).sum()
     }
 
     /// Part of the step that the limits leave.

@@ -1,14 +1,16 @@
 //! Equilibrium held by friction (9.17).
 
 use friction::parameters::JointType;
-use mechanics::{EquilibriumSettings, Formulation, Simulation};
+use mechanics::rotation::log;
+use mechanics::{EquilibriumSettings, Formulation, Owner, Simulation};
 use verification::{Case, Coverage, Section, check};
 
 use super::original;
 use crate::oracle::psi;
 use crate::runs::{go_on, settings};
+
 use crate::systems::sliding::{Block, place};
-use crate::systems::{bristles, law};
+use crate::systems::{Cross, bristles, law, shafts};
 
 const TIGHT: EquilibriumSettings = EquilibriumSettings {
     error: 1e-12,
@@ -155,4 +157,26 @@ fn bristles_keep_their_deflection_in_statics() {
         1e-10,
         why,
     )]);
+}
+
+/// Shafts whose turning is prescribed: every step of the iteration only meets constraints.
+#[test]
+fn what_is_driven_has_an_equilibrium_at_any_time() {
+    for cross in [Cross::Hooke, Cross::Universal] {
+        let friction = law(0.1, 0.1, 0.1, 0.01);
+        let mut simulation = Simulation::new(shafts(cross, [Some(friction); 2]), 1.0);
+        simulation.assemble().expect("it assembles");
+        // 10 rad/s: from step to step by 6 degrees, then by 17.
+        for time in [0.01, 0.02, 0.03, 0.06, 0.09] {
+            simulation
+                .find_equilibrium(time, &TIGHT)
+                .unwrap_or_else(|error| panic!("{error}"));
+            let turned = log(&simulation.snapshot().rotation(0)).z;
+            assert!((turned - 10.0 * time).abs() < 1e-10, "{turned} at {time}");
+            // The cross passes the torque of 5 on the output as between 5 cos 30° and 5/cos 30°;
+            // creep takes up to 0.1 of the loads on the pins more or less.
+            let torque = simulation.snapshot().reaction(Owner::Motion(0)).torque.z;
+            assert!((4.2..5.9).contains(&torque.abs()), "{torque} at {time}");
+        }
+    }
 }
