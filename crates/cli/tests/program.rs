@@ -203,7 +203,7 @@ fn wrong_input_is_3_with_its_place() {
             "reading.adm",
             &[
                 "reading.adm:11:",
-                "USER is not simulated yet",
+                "USER calls a subroutine",
                 "reading.adm:12:",
                 "TIME only",
             ],
