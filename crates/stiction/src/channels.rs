@@ -1,8 +1,8 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
-//! Order: parts and point masses, joints, primitives, motions, general constraints, couplers, applied
-//! forces, variables, plant inputs and outputs, frictions, requests; last our own entities, one a
-//! friction, where readers that look for those of Adams do not meet them.
+//! Order: parts and point masses, joints, primitives, motions, general constraints, couplers, gears,
+//! applied forces, variables, plant inputs and outputs, frictions, requests; last our own entities,
+//! one a friction, where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
 use mechanics::Owner;
@@ -72,6 +72,11 @@ impl Channels {
             let place = dataset.constraints.len() + place;
             let constraint = ForceElement::Constraint(Owner::General(place));
             push(&element.header, "COUPLER", "Coupler", constraint);
+        }
+        for (place, element) in dataset.gears.iter().enumerate() {
+            let place = dataset.constraints.len() + dataset.couplers.len() + place;
+            let constraint = ForceElement::Constraint(Owner::General(place));
+            push(&element.header, "GEAR", "Gear", constraint);
         }
         for applied in APPLIED {
             for (header, places) in applied.elements(dataset) {

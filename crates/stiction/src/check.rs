@@ -55,6 +55,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("JPRIM", dataset.primitives.len()),
         ("GCON", dataset.constraints.len()),
         ("COUPLER", dataset.couplers.len()),
+        ("GEAR", dataset.gears.len()),
         ("MOTION", dataset.motions.len()),
         ("SFORCE", dataset.single_forces.len()),
         ("SPRINGDAMPER", dataset.spring_dampers.len()),

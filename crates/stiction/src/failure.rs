@@ -17,6 +17,7 @@ fn span_of(dataset: &Dataset, element: &Label) -> Option<Span> {
         "MOTION" => &dataset.motions.by_id(id)?.header,
         "GCON" => &dataset.constraints.by_id(id)?.header,
         "COUPLER" => &dataset.couplers.by_id(id)?.header,
+        "GEAR" => &dataset.gears.by_id(id)?.header,
         "SFORCE" => &dataset.single_forces.by_id(id)?.header,
         "SPRINGDAMPER" => &dataset.spring_dampers.by_id(id)?.header,
         "VFORCE" => &dataset.vector_forces.by_id(id)?.header,

@@ -66,6 +66,7 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         two_markers(&name, beam.i, beam.j, beam.header.span, diagnostics);
     }
     couplers(dataset, diagnostics);
+    gears(dataset, diagnostics);
     motions(dataset, diagnostics);
     parts(dataset, diagnostics);
 }
@@ -135,6 +136,44 @@ fn couplers(dataset: &Dataset, diagnostics: &mut Diagnostics) {
             diagnostics
                 .error(Code::NoSuchFreedom, coupler.header.span, message)
                 .help(help);
+        }
+    }
+}
+
+/// Geared joints move on the part of CV.
+fn gears(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    let owner = |id| dataset.markers.by_id(id).map(|marker| marker.owner);
+    for gear in &dataset.gears {
+        let name = format!("GEAR/{}", gear.header.id);
+        let span = gear.header.span;
+        let Some(carrier) = owner(gear.cv) else {
+            continue;
+        };
+        for joint in gear
+            .joints
+            .iter()
+            .filter_map(|id| dataset.joints.by_id(*id))
+        {
+            let (id, kind) = (joint.header.id, joint.kind);
+            if !kind.rotates() && !kind.translates() {
+                let message = format!(
+                    "{name} gears JOINT/{id}, which has no coordinate: it is {}",
+                    kind.keyword()
+                );
+                diagnostics
+                    .error(Code::NoSuchFreedom, span, message)
+                    .help("REVOLUTE, TRANSLATIONAL and CYLINDRICAL joints can be geared");
+            }
+            let ends = [joint.i, joint.j].map(owner);
+            if !ends.contains(&Some(carrier)) && ends.iter().all(Option::is_some) {
+                let message = format!(
+                    "JOINT/{id} of {name} has no marker on the part of CV, MARKER/{}",
+                    gear.cv
+                );
+                diagnostics
+                    .error(Code::InvalidConnection, span, message)
+                    .help("CV is on the carrier, which both joints connect to a geared part");
+            }
         }
     }
 }

@@ -16,6 +16,8 @@ pub enum Switchable {
     Constraint,
     /// COUPLER.
     Coupler,
+    /// GEAR.
+    Gear,
     /// SFORCE.
     SingleForce,
     /// SPRINGDAMPER.
@@ -40,12 +42,13 @@ pub enum Switchable {
 
 impl Switchable {
     /// Every type.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Joint,
         Self::Primitive,
         Self::Motion,
         Self::Constraint,
         Self::Coupler,
+        Self::Gear,
         Self::SingleForce,
         Self::SpringDamper,
         Self::VectorForce,
@@ -67,6 +70,7 @@ impl Switchable {
             Self::Motion => "MOTION",
             Self::Constraint => "GCON",
             Self::Coupler => "COUPLER",
+            Self::Gear => "GEAR",
             Self::SingleForce => "SFORCE",
             Self::SpringDamper => "SPRINGDAMPER",
             Self::VectorForce => "VFORCE",

@@ -1,4 +1,4 @@
-//! COUPLER: coordinates of joints that move in proportion.
+//! COUPLER and GEAR: coordinates of joints that move in proportion.
 
 use super::Header;
 
@@ -23,4 +23,16 @@ pub struct Coupler {
     pub header: Header,
     /// Two or three coordinates.
     pub freedoms: Vec<CoupledFreedom>,
+}
+
+/// GEAR: the parts that two joints move on a common carrier have the same velocity along `z_CV` at
+/// the origin of CV, where their teeth touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gear {
+    /// Identifier, name and place.
+    pub header: Header,
+    /// JOINTS: two revolute, translational or cylindrical joints with a marker on the carrier.
+    pub joints: Vec<u32>,
+    /// CV: a marker on the carrier, z along the velocity of the teeth.
+    pub cv: u32,
 }

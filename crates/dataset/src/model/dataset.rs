@@ -1,8 +1,8 @@
 //! The whole model.
 
 use super::{
-    Beam, Bushing, Coupler, Elements, Equilibrium, Field, Friction, GeneralConstraint, Graphics,
-    InitialConditions, Integrator, Joint, JointPrimitive, Kinematics, Marker, Motion,
+    Beam, Bushing, Coupler, Elements, Equilibrium, Field, Friction, Gear, GeneralConstraint,
+    Graphics, InitialConditions, Integrator, Joint, JointPrimitive, Kinematics, Marker, Motion,
     OutputOptions, Part, PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor,
     SingleForce, SpringDamper, Switchable, Units, Variable, VectorForce,
 };
@@ -37,6 +37,8 @@ pub struct Dataset {
     pub constraints: Elements<GeneralConstraint>,
     /// COUPLER.
     pub couplers: Elements<Coupler>,
+    /// GEAR.
+    pub gears: Elements<Gear>,
     /// SFORCE.
     pub single_forces: Elements<SingleForce>,
     /// SPRINGDAMPER.

@@ -103,6 +103,7 @@ elements!(
     super::JointPrimitive,
     super::GeneralConstraint,
     super::Coupler,
+    super::Gear,
     super::Motion,
     super::SingleForce,
     super::SpringDamper,

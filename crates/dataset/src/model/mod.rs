@@ -26,7 +26,7 @@ pub use commands::{
     Change, ChangeKind, Command, CommandFile, CommandKind, FrictionArguments, Simulate,
     SimulationKind,
 };
-pub use coupler::{CoupledFreedom, Coupler};
+pub use coupler::{CoupledFreedom, Coupler, Gear};
 pub use dataset::Dataset;
 pub use elastic::{Beam, BeamDamping, Bushing, Field};
 pub use elements::{Element, Elements, Header};

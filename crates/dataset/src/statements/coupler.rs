@@ -1,10 +1,11 @@
-//! COUPLER.
+//! COUPLER and GEAR.
 
 use super::{Builder, Reference, Target, add};
 use crate::diagnostic::Code;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
-use crate::model::{CoupledFreedom, Coupler};
+use crate::model::{CoupledFreedom, Coupler, Gear};
 use crate::reading::Reading;
+use crate::source::Span;
 
 const SUBROUTINE: &str = "subroutines are not called";
 
@@ -22,11 +23,7 @@ pub(super) fn coupler(reading: &mut Reading, builder: &mut Builder) {
     if !reading.has("FUNCTION") {
         reading.require("SCALES");
     }
-    let joints = reading.ids("JOINTS").to_vec();
-    for &(id, span) in &joints {
-        let target = Target::Joint;
-        builder.references.push(Reference { target, id, span });
-    }
+    let joints = joints(reading, builder);
     if !joints.is_empty() && !(2..=3).contains(&joints.len()) {
         let found = joints.len();
         refuse(
@@ -66,6 +63,38 @@ pub(super) fn coupler(reading: &mut Reading, builder: &mut Builder) {
     };
     let list = &mut builder.dataset.couplers;
     add(list, coupler, reading.name, reading.diagnostics);
+}
+
+pub(super) const GEAR_KEYWORDS: &[Keyword] = &[
+    abbreviated("JOINTS", "J", Kind::Ids),
+    keyword("CV", Kind::Id),
+];
+
+/// GEAR.
+pub(super) fn gear(reading: &mut Reading, builder: &mut Builder) {
+    reading.require("JOINTS");
+    let joints = joints(reading, builder);
+    if !joints.is_empty() && joints.len() != 2 {
+        let message = format!("a gear has two joints, found {}", joints.len());
+        refuse(reading, "JOINTS", message);
+    }
+    let gear = Gear {
+        header: reading.header(),
+        joints: joints.into_iter().map(|(id, _)| id).collect(),
+        cv: builder.require(reading, "CV", Target::Marker),
+    };
+    let list = &mut builder.dataset.gears;
+    add(list, gear, reading.name, reading.diagnostics);
+}
+
+/// The joints that JOINTS names.
+fn joints(reading: &Reading, builder: &mut Builder) -> Vec<(u32, Span)> {
+    let joints = reading.ids("JOINTS").to_vec();
+    for &(id, span) in &joints {
+        let target = Target::Joint;
+        builder.references.push(Reference { target, id, span });
+    }
+    joints
 }
 
 fn refuse(reading: &mut Reading, keyword: &'static str, message: String) {

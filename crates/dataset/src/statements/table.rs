@@ -89,6 +89,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     read("JPRIM", "JP", joint::PRIMITIVE_KEYWORDS, joint::primitive),
     read("GCON", "GC", joint::CONSTRAINT_KEYWORDS, joint::constraint),
     read("COUPLER", "COU", coupler::KEYWORDS, coupler::coupler),
+    read("GEAR", "GE", coupler::GEAR_KEYWORDS, coupler::gear),
     read("MOTION", "MO", motion::KEYWORDS, motion::motion),
     read("SFORCE", "SF", force::SINGLE_KEYWORDS, force::single_force),
     read(
@@ -204,7 +205,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("FE_NODE", "FE_N"),
     unsupported("FE_PART", "FE_P"),
     unsupported("FLEX_BODY", "FL"),
-    unsupported("GEAR", "GE"),
     unsupported("GSE", "GS"),
     unsupported("LSE", "LSE"),
     unsupported("MFORCE", "MF"),

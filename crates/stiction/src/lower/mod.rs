@@ -4,7 +4,7 @@
 //! joints and then the primitives, forces as `forces::APPLIED` says, by components.
 //! Markers keep their places; a marker at the origin of ground, whose id is 0, follows them, and then
 //! those from which coupled coordinates are measured. General constraints are those of the dataset,
-//! then couplers.
+//! then couplers, then gears.
 
 mod bodies;
 mod composite;
@@ -171,6 +171,11 @@ impl Lowering<'_> {
                 Switchable::Coupler => {
                     Element::Constraint(dataset.constraints.len() + dataset.couplers.position(id)?)
                 }
+                Switchable::Gear => Element::Constraint(
+                    dataset.constraints.len()
+                        + dataset.couplers.len()
+                        + dataset.gears.position(id)?,
+                ),
                 Switchable::Friction => Element::Friction(dataset.frictions.position(id)?),
                 // Motions rest with their joints, too; sensors are no part of the model, and forces
                 // follow below.

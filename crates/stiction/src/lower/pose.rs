@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Where a marker stands as the dataset places the parts, in ground.
 pub(super) struct Pose {
-    origin: Vector3<f64>,
-    axes: Matrix3<f64>,
+    pub(super) origin: Vector3<f64>,
+    pub(super) axes: Matrix3<f64>,
 }
 
 impl Pose {

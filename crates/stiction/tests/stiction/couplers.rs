@@ -1,4 +1,4 @@
-//! COUPLER and SCREW against closed forms: gears, a winch, a differential and a nut.
+//! COUPLER, GEAR and SCREW against closed forms: gears, racks, a winch, a differential, a nut.
 
 use results::ResFile;
 
@@ -131,4 +131,49 @@ END
         (torque - 0.02 * per_length * acceleration).abs() < 1e-6,
         "{torque}"
     );
+}
+
+#[test]
+fn gears_mesh_where_their_teeth_touch() {
+    // Wheels of radius 0.5 about (0, 0) and of radius 0.25 about (0.75, 0), and a rack that the
+    // small wheel moves along y at (1, 0). The second joint has the carrier at its I marker.
+    let text = "gears
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, QP=0.75, 0, 0
+MARKER/3, PART=1, QP=1, 0, 0, REULER=0, -90D, 0
+MARKER/4, PART=1, QP=0.5, 0, 0, REULER=0, -90D, 0
+PART/2, MASS=1, CM=20, IP=2, 2, 2
+MARKER/20, PART=2
+PART/3, MASS=1, CM=30, IP=0.5, 0.5, 0.5, QG=0.75, 0, 0
+MARKER/30, PART=3
+PART/4, MASS=4, CM=40, IP=1, 1, 1, QG=1, 0, 0
+MARKER/40, PART=4, REULER=0, -90D, 0
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, REVOLUTE, I=2, J=30
+JOINT/3, TRANSLATIONAL, I=40, J=3
+GEAR/1, JOINTS=1, 2, CV=4
+GEAR/2, JOINTS=2, 3, CV=3
+VTORQUE/1, I=20, JFLOAT=9, RM=1, TZ=10\\
+MARKER/9, PART=1, FLOATING
+END
+";
+    let t = 2.0;
+    let results = run_text(text, t, 20, Some(1e-8));
+    // At rim speed v: w1 = v/0.5, w2 = -v/0.25, and the rack moves with the other side of the small
+    // wheel, at -v. The inertia at the rim is 2/0.25 + 0.5/0.0625 + 4 and the force 10/0.5.
+    let rim = (10.0 / 0.5) / (2.0 / 0.25 + 0.5 / 0.0625 + 4.0) * t;
+    let wanted = [
+        ("2_XFORM.WZ", rim / 0.5),
+        ("3_XFORM.WZ", -rim / 0.25),
+        ("4_XFORM.VY", -rim),
+    ];
+    for (name, wanted) in wanted {
+        let found = last(&results, &format!("PART_{name}"));
+        // The integrator's error of 1e-8 a step over some hundred steps.
+        assert!((found - wanted).abs() < 1e-5, "{name}: {found} {wanted}");
+    }
+    // The first gear holds its wheel back with the torque that does not turn it.
+    let held = 2.0 * rim / 0.5 / t - 10.0;
+    assert!((last(&results, "GEAR_1.TZ") - held).abs() < 1e-6);
 }
