@@ -2,7 +2,7 @@
 //!
 //! A [`model::Model`] lists what is given. [`Simulation`] assembles it, integrates it and shows
 //! solved instants as [`Snapshot`]s. The equations are in `system`, one implicit step in
-//! `dynamics.rs`, one instant in `instant.rs`; frames, signs and symbols are those of
+//! `dynamics/`, one instant in `instant.rs`; frames, signs and symbols are those of
 //! `docs/notation.md`.
 //!
 //! A block on a table, pushed along z against its friction:

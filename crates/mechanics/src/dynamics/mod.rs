@@ -29,14 +29,14 @@
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
 
-use nalgebra::Vector3;
+mod positions;
+
 use numerics::bdf;
 use numerics::linear::{Matrix, SparseLu};
 
 use crate::instant::Failure;
 use crate::joint_friction::Memory;
 use crate::model::Level;
-use crate::rotation::Quaternion;
 use crate::state::{POSITIONS, State, VELOCITIES};
 use crate::system::{Rows, System, Weights};
 
@@ -210,55 +210,6 @@ impl Dynamics {
         self.index3_left > 0
     }
 
-    /// Positions from velocities: `x = x̂ + γ u + ν`.
-    fn positions_from_velocities(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
-        let bodies = self.system.model.bodies.len();
-        for body in 0..bodies {
-            let place = POSITIONS * body;
-            let first = VELOCITIES * body;
-            for k in 0..3 {
-                self.state.values[place + k] = step.history[place + k]
-                    + step.gamma * self.state.velocities()[first + k]
-                    + self.shift[first + k];
-            }
-            let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
-            let omega = Vector3::from_column_slice(&self.state.velocities()[first + 3..first + 6]);
-            let half = 0.5 * step.gamma * omega;
-            let norm = past.norm_squared();
-            let scalar = norm - half.norm_squared();
-            if !(scalar > 0.25 * norm) {
-                return Err(Failure::TurnsTooFar { body });
-            }
-            let turned = Quaternion {
-                w: scalar.sqrt(),
-                v: half,
-            }
-            .times(&past);
-            let shift = Vector3::from_column_slice(&self.shift[first + 3..first + 6]);
-            let q = Quaternion::exp(&shift).times(&turned).normalized();
-            q.write(&mut self.state.values[place + 3..place + POSITIONS]);
-        }
-        Ok(())
-    }
-
-    /// Velocities from positions: the formula itself.
-    fn velocities_from_positions(&mut self, step: &bdf::Step<'_>) {
-        let bodies = self.system.model.bodies.len();
-        for body in 0..bodies {
-            let place = POSITIONS * body;
-            let q = self.state.orientation(body);
-            let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
-            let back = Quaternion { w: q.w, v: -q.v };
-            let omega = (-2.0 / step.gamma) * past.times(&back).v;
-            let velocity = (self.state.centre(body)
-                - Vector3::from_column_slice(&step.history[place..place + 3]))
-                / step.gamma;
-            let u = &mut self.state.velocities_mut()[VELOCITIES * body..VELOCITIES * (body + 1)];
-            u[..3].copy_from_slice(velocity.as_slice());
-            u[3..].copy_from_slice(omega.as_slice());
-        }
-    }
-
     /// Right-hand sides at the state evaluated last.
     fn residual(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
         self.work.residuals += 1;
@@ -295,23 +246,6 @@ impl Dynamics {
                 element: self.system.find_not_a_number(),
             })
         }
-    }
-
-    /// Corrects the positions where the velocities' correction leaves `g(x) ≠ 0`.
-    fn correct_positions(&mut self, gamma: f64) {
-        let n = self.system.velocity_count();
-        self.position_right[..n].fill(0.0);
-        for (row, &place) in self.system.rows.iter().enumerate() {
-            let evaluated = &self.system.evaluated[place];
-            let constraint = &self.system.constraints[place];
-            let moved = gamma * evaluated.rate_of(&constraint.bodies, &self.right[..n]);
-            self.position_right[n + row] = if constraint.level == Level::Position {
-                -evaluated.error - moved
-            } else {
-                0.0
-            };
-        }
-        self.factors.solve(&mut self.position_right);
     }
 
     /// Size of a Newton correction in units of the error tolerance.
