@@ -5,6 +5,7 @@
 mod cases;
 mod changes;
 mod corpus;
+mod forces;
 mod language;
 mod misuse;
 mod mutations;
