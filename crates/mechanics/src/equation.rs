@@ -138,6 +138,14 @@ impl Equation {
         }
     }
 
+    /// The first of a body's six motions that it depends on: 3 where it is of rotations alone.
+    pub(crate) const fn first_motion(self) -> usize {
+        match self {
+            Self::Along(_) | Self::Thread { .. } => 0,
+            Self::Axes(..) | Self::About(_) => 3,
+        }
+    }
+
     /// `∂(Gᵀ)/∂x` for a unit multiplier: the change of the reaction with the configuration.
     ///
     /// With the multiplier it is the geometric stiffness `∂(Gᵀλ)/∂x`; its transpose times the

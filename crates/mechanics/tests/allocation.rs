@@ -69,14 +69,27 @@ fn chain() -> Model {
         model.frictions.push(Friction {
             label: label("FRICTION", id),
             joint: k,
-            law: Law::Original(friction::Original {
-                mu_static: 0.2,
-                mu_dynamic: 0.15,
-                transition_velocity: 0.05,
-                transition_coefficient: 1.5,
-                max_deformation: 0.01,
-                effect: friction::Effect::All,
-            }),
+            // Both formulations.
+            law: if k == 1 {
+                Law::LuGre(friction::LuGre {
+                    mu_static: 0.2,
+                    mu_dynamic: 0.15,
+                    bristle_stiffness: 1e5,
+                    damping: 1.0,
+                    viscous: 0.0,
+                    stribeck_velocity: 0.01,
+                    stribeck_exponent: 2.0,
+                })
+            } else {
+                Law::Original(friction::Original {
+                    mu_static: 0.2,
+                    mu_dynamic: 0.15,
+                    transition_velocity: 0.05,
+                    transition_coefficient: 1.5,
+                    max_deformation: 0.01,
+                    effect: friction::Effect::All,
+                })
+            },
             load: FrictionJoint::Revolute(friction::RevoluteLoad {
                 inputs: friction::Inputs::ALL,
                 pin_radius: 0.02,

@@ -20,10 +20,11 @@
 //!
 //! Bristle deflections of LuGre follow from velocities and reactions in closed form (see
 //! `joint_friction`); the works of frictions, forces and motions are integrated by the same formula.
-//! Neither is an unknown of Newton's iteration, and works take no part in the error test. Deflections do
-//! while the joint sticks; sliding bristles follow the reactions, which a step determines to the Newton
-//! tolerance divided by its length only: an error test on them answers with shorter steps, and those
-//! with rougher reactions (docs/decisions/0006).
+//! Neither is an unknown of Newton's iteration. Both take part in the error test, works relative to the
+//! energy of the bodies. Deflections have tolerances of their own: sliding bristles follow the
+//! reactions, which a step determines to the Newton tolerance divided by its length only, so that a
+//! tight test on them is answered with shorter steps, and those with rougher reactions
+//! (docs/decisions/0006).
 //!
 //! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
@@ -98,9 +99,17 @@ pub(crate) struct Scales {
     pub(crate) length: f64,
     /// Largest rate so far, at least one per second: velocities count relative to it.
     pub(crate) rate: f64,
+    /// Mass of all bodies.
+    pub(crate) mass: f64,
 }
 
 impl Scales {
+    /// Energy of all bodies at the velocity that others count relative to.
+    fn energy(&self) -> f64 {
+        let velocity = self.length * self.rate;
+        self.mass * velocity * velocity
+    }
+
     /// Raises the rate to that of the velocities.
     pub(crate) fn observe(&mut self, velocities: &[f64]) {
         for (k, u) in velocities.iter().enumerate() {
@@ -133,8 +142,10 @@ pub(crate) struct Dynamics {
     /// Friction memory before the last accepted step, for outputs within it.
     pub(crate) previous: Vec<Memory>,
     powers: Vec<f64>,
-    /// What errors of bristle deflections are multiplied with; zero where they slide.
-    bristle_weights: Vec<f64>,
+    /// Errors of the bristle deflections that a step may make.
+    bristle_errors: Vec<f64>,
+    /// Energy that errors of the works count relative to: that of the bodies, or what was exchanged.
+    energy: f64,
     state: State,
     shift: Vec<f64>,
     impulses: Vec<f64>,
@@ -169,7 +180,8 @@ impl Dynamics {
             multipliers: vec![0.0; system.row_count()],
             previous: system.history.frictions.clone(),
             powers: vec![0.0; system.work_count()],
-            bristle_weights: vec![0.0; system.bristle_count()],
+            bristle_errors: vec![0.0; system.bristle_count()],
+            energy: 0.0,
             state,
             shift: vec![0.0; n],
             impulses: vec![0.0; system.row_count()],
@@ -362,13 +374,18 @@ impl Dynamics {
         let deflections = &mut self.state.values[range];
         self.system
             .write_bristles(&self.multipliers, Some(deflections), None);
-        self.system
-            .write_bristle_weights(&self.multipliers, &mut self.bristle_weights);
+        self.system.write_bristle_errors(
+            &self.multipliers,
+            self.tolerance,
+            &mut self.bristle_errors,
+        );
         self.system
             .write_powers(&self.multipliers, &mut self.powers);
         for (place, power) in self.state.work_range().zip(&self.powers) {
             self.state.values[place] = step.history[place] + step.gamma * power;
         }
+        let exchanged: f64 = self.state.works().iter().map(|work| work.abs()).sum();
+        self.energy = self.scales.energy().max(exchanged);
     }
 
     fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
@@ -466,9 +483,11 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        let bristles = &difference[self.state.bristle_range()];
-        for (d, weight) in bristles.iter().zip(&self.bristle_weights) {
-            norm = norm.max(d.abs() * weight);
+        let works = &difference[self.state.work_range()];
+        if self.energy > 0.0 {
+            for d in works {
+                norm = norm.max(d.abs() / self.energy);
+            }
         }
         if self.present == Formulation::Si2 {
             let velocities = POSITIONS * bodies..self.state.motions();
@@ -481,7 +500,14 @@ impl bdf::System for Dynamics {
                 norm = norm.max(d.abs() / unit);
             }
         }
-        norm / self.tolerance
+        norm /= self.tolerance;
+        let bristles = &difference[self.state.bristle_range()];
+        for (d, error) in bristles.iter().zip(&self.bristle_errors) {
+            if *error > 0.0 {
+                norm = norm.max(d.abs() / error);
+            }
+        }
+        norm
     }
 
     fn accepted(&mut self, step: &bdf::Step<'_>, _: &[f64]) {

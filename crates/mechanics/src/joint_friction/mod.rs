@@ -120,6 +120,16 @@ struct LoadAt {
     by_position: Local,
 }
 
+impl FrictionJoint {
+    /// The first of a body's six motions that its friction depends on: 3 where the joint only turns.
+    pub(crate) fn first_motion(&self) -> usize {
+        let firsts = freedoms(self)
+            .iter()
+            .map(|equation| equation.first_motion());
+        firsts.min().unwrap_or(3)
+    }
+}
+
 /// The equations whose values are the displacements of a joint's freedoms.
 fn freedoms(joint: &FrictionJoint) -> &'static [Equation] {
     match joint {

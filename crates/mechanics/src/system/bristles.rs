@@ -4,7 +4,13 @@ use friction::Regime;
 
 use super::System;
 use crate::joint_friction::{BristlePast, StepEnd};
-use crate::model::{Element, Law};
+use crate::model::Law;
+
+/// Error of the deflection that a step may make, relative to that of the largest load: in units of the
+/// tolerance and at least while it sticks, and plainly where it slides (docs/decisions/0006).
+const STICKING_PART: f64 = 100.0;
+const LEAST_PART: f64 = 1e-4;
+const SLIDING_PART: f64 = 0.05;
 
 impl System {
     /// Number of bristle deflections: one by component of the surfaces of each LuGre friction.
@@ -61,9 +67,14 @@ impl System {
         }
     }
 
-    /// Writes what errors of the deflections are multiplied with at the instant evaluated last, to be
-    /// relative to the deflection of the largest load; zero where the joint slides.
-    pub(crate) fn write_bristle_weights(&self, multipliers: &[f64], weights: &mut [f64]) {
+    /// Writes the largest error of the deflections that a step may make at the instant evaluated last,
+    /// for the error `tolerance`: a part of the deflection of the largest load.
+    pub(crate) fn write_bristle_errors(
+        &self,
+        multipliers: &[f64],
+        tolerance: f64,
+        errors: &mut [f64],
+    ) {
         let mut first = 0;
         for (place, friction) in self.model.frictions.iter().enumerate() {
             let count = self.bristles_of(place);
@@ -71,12 +82,12 @@ impl System {
                 let values = self.friction(place, multipliers).0.values;
                 let load = friction.surface_load(&values.load);
                 let level = law.mu_static * load.max(self.history.frictions[place].largest_load);
-                let sticks = values.regime == Regime::Stuck && level > 0.0;
-                weights[first..first + count].fill(if sticks {
-                    law.bristle_stiffness / level
+                let part = if values.regime == Regime::Stuck {
+                    (STICKING_PART * tolerance).max(LEAST_PART)
                 } else {
-                    0.0
-                });
+                    SLIDING_PART
+                };
+                errors[first..first + count].fill(part * level / law.bristle_stiffness);
             }
             first += count;
         }
@@ -85,7 +96,10 @@ impl System {
     /// Takes over the present instant as the end of an accepted step of length `size`.
     pub(crate) fn accept_frictions(&mut self, multipliers: &[f64], size: f64) {
         for place in 0..self.model.frictions.len() {
-            if !self.model.is_active(Element::Friction(place)) {
+            if !self.friction_acts(place) {
+                // What rests begins anew: stuck without creep where the joint stands.
+                let fresh = self.fresh_memory(place);
+                self.history.frictions[place] = self.history.frictions[place].renewed(fresh);
                 continue;
             }
             let (element, i, j) = self.friction(place, multipliers);

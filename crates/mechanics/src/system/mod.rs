@@ -267,7 +267,7 @@ impl System {
         self.remember_angles();
     }
 
-    fn fresh_memory(&self, place: usize) -> Memory {
+    pub(super) fn fresh_memory(&self, place: usize) -> Memory {
         let friction = &self.model.frictions[place];
         let joint = &self.model.joints[friction.joint];
         let (i, j) = (self.marker(joint.i), self.marker(joint.j));

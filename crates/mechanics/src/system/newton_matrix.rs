@@ -100,10 +100,11 @@ impl System {
                     matrix.add(6 * body + k, n + row, -g);
                 }
             }
-            if let Form::Pair { i, j, .. } = constraint.form {
+            if let Form::Pair { equation, i, j } = constraint.form {
                 let sides = [i, j].map(|m| self.model.markers[m].body);
                 let scale = -weights.position * multipliers[row];
-                self.add_local_matrix(&sides, &evaluated.stiffness, scale, matrix);
+                let first = equation.first_motion();
+                self.add_local_matrix(&sides, &evaluated.stiffness, first, scale, matrix);
             }
         }
         self.assemble_forces(weights, matrix);
@@ -145,7 +146,7 @@ impl System {
             let turning = direction_stiffness(force.kind, &frames);
             let sides = frames.sides();
             let scale = -weights.position * value;
-            self.add_local_matrix(&sides, &turning, scale, matrix);
+            self.add_local_matrix(&sides, &turning, 0, scale, matrix);
             if let (Some(change), Some(carrier)) =
                 (direction_by_frame(force.kind, &frames), frames.frame.body)
             {
@@ -180,7 +181,7 @@ impl System {
     fn assemble_frictions(&self, weights: Weights, multipliers: &[f64], matrix: &mut Matrix) {
         let n = self.velocity_count();
         for place in 0..self.model.frictions.len() {
-            if !self.model.is_active(Element::Friction(place)) {
+            if !self.friction_acts(place) {
                 continue;
             }
             let mut slopes = Slopes::zero();
@@ -190,7 +191,8 @@ impl System {
                 * self.moment_change(place, &i, &j, multipliers);
             let moving = weights.velocity * slopes.by_velocity
                 + weights.position * (slopes.by_position + turning);
-            self.add_local_matrix(&sides, &moving, -1.0, matrix);
+            let first = self.model.frictions[place].load.first_motion();
+            self.add_local_matrix(&sides, &moving, first, -1.0, matrix);
             for contribution in &self.reactions[place] {
                 let Some(row) = self.constraints[contribution.constraint].row else {
                     continue;
@@ -204,7 +206,7 @@ impl System {
                 };
                 for (side, body) in sides.iter().enumerate() {
                     let Some(body) = *body else { continue };
-                    for r in 0..6 {
+                    for r in first..6 {
                         matrix.add(6 * body + r, n + row, -by_multiplier[6 * side + r]);
                     }
                 }
@@ -238,10 +240,13 @@ impl System {
         }
     }
 
+    /// Adds a matrix over the local motions of two bodies; of each body's six from `first` on, the
+    /// others being none of the element's.
     fn add_local_matrix(
         &self,
         sides: &[Option<usize>; 2],
         local: &LocalMatrix,
+        first: usize,
         scale: f64,
         matrix: &mut Matrix,
     ) {
@@ -252,8 +257,8 @@ impl System {
                 let Some(column_body) = *column_body else {
                     continue;
                 };
-                for r in 0..6 {
-                    for c in 0..6 {
+                for r in first..6 {
+                    for c in first..6 {
                         let free = (r < 3 || turns(row_body)) && (c < 3 || turns(column_body));
                         let entry = local[(6 * row_side + r, 6 * column_side + c)];
                         let value = if free { scale * entry } else { 0.0 };
