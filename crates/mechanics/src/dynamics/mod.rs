@@ -19,18 +19,18 @@
 //! so are the next few.
 //!
 //! Bristle deflections of LuGre follow from velocities and reactions in closed form (see
-//! `joint_friction`); the works of frictions, forces and motions are integrated by the same formula.
-//! Neither is an unknown of Newton's iteration. Both take part in the error test, works relative to the
-//! energy of the bodies. Deflections have tolerances of their own: sliding bristles follow the
-//! reactions, which a step determines to the Newton tolerance divided by its length only, so that a
-//! tight test on them is answered with shorter steps, and those with rougher reactions
-//! (docs/decisions/0006).
+//! `joint_friction`), the works of frictions, forces and motions from their powers
+//! (`quadrature.rs`). Neither is an unknown of Newton's iteration. Works take no part in the error test.
+//! Deflections do with tolerances of their own: sliding bristles follow the reactions, which a step
+//! determines to the Newton tolerance divided by its length only, so that a tight test on them is
+//! answered with shorter steps, and those with rougher reactions (docs/decisions/0006).
 //!
 //! Orientations: the formula is applied to the unit quaternion, of which the component along `q`
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
 
 mod positions;
+mod quadrature;
 
 use numerics::bdf;
 use numerics::linear::{Matrix, SparseLu};
@@ -40,6 +40,7 @@ use crate::joint_friction::Memory;
 use crate::model::Level;
 use crate::state::{POSITIONS, State, VELOCITIES};
 use crate::system::{Rows, System, Weights};
+use quadrature::Quadrature;
 
 /// How the constraints enter a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,17 +100,9 @@ pub(crate) struct Scales {
     pub(crate) length: f64,
     /// Largest rate so far, at least one per second: velocities count relative to it.
     pub(crate) rate: f64,
-    /// Mass of all bodies.
-    pub(crate) mass: f64,
 }
 
 impl Scales {
-    /// Energy of all bodies at the velocity that others count relative to.
-    fn energy(&self) -> f64 {
-        let velocity = self.length * self.rate;
-        self.mass * velocity * velocity
-    }
-
     /// Raises the rate to that of the velocities.
     pub(crate) fn observe(&mut self, velocities: &[f64]) {
         for (k, u) in velocities.iter().enumerate() {
@@ -144,8 +137,7 @@ pub(crate) struct Dynamics {
     powers: Vec<f64>,
     /// Errors of the bristle deflections that a step may make.
     bristle_errors: Vec<f64>,
-    /// Energy that errors of the works count relative to: that of the bodies, or what was exchanged.
-    energy: f64,
+    quadrature: Quadrature,
     state: State,
     shift: Vec<f64>,
     impulses: Vec<f64>,
@@ -181,7 +173,7 @@ impl Dynamics {
             previous: system.history.frictions.clone(),
             powers: vec![0.0; system.work_count()],
             bristle_errors: vec![0.0; system.bristle_count()],
-            energy: 0.0,
+            quadrature: Quadrature::new(system.work_count()),
             state,
             shift: vec![0.0; n],
             impulses: vec![0.0; system.row_count()],
@@ -209,6 +201,11 @@ impl Dynamics {
         self.scales = scales;
         self.factored = None;
         self.rate = 0.0;
+    }
+
+    /// Begins the works anew at an instant.
+    pub(crate) fn start_works(&mut self, time: f64, works: &[f64], powers: &[f64]) {
+        self.quadrature.start(time, works, powers);
     }
 
     /// Solves the next steps as I3.
@@ -381,11 +378,9 @@ impl Dynamics {
         );
         self.system
             .write_powers(&self.multipliers, &mut self.powers);
-        for (place, power) in self.state.work_range().zip(&self.powers) {
-            self.state.values[place] = step.history[place] + step.gamma * power;
-        }
-        let exchanged: f64 = self.state.works().iter().map(|work| work.abs()).sum();
-        self.energy = self.scales.energy().max(exchanged);
+        let range = self.state.work_range();
+        let works = &mut self.state.values[range];
+        self.quadrature.works(step.time, &self.powers, works);
     }
 
     fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
@@ -483,12 +478,6 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        let works = &difference[self.state.work_range()];
-        if self.energy > 0.0 {
-            for d in works {
-                norm = norm.max(d.abs() / self.energy);
-            }
-        }
         if self.present == Formulation::Si2 {
             let velocities = POSITIONS * bodies..self.state.motions();
             for (k, d) in difference[velocities].iter().enumerate() {
@@ -512,6 +501,8 @@ impl bdf::System for Dynamics {
 
     fn accepted(&mut self, step: &bdf::Step<'_>, _: &[f64]) {
         // The step solved last is the one accepted: everything is evaluated there.
+        self.quadrature
+            .accept(step.time, self.state.works(), &self.powers);
         self.previous.clone_from(&self.system.history.frictions);
         self.system.accept_frictions(&self.multipliers, step.size);
         self.system.remember_angles();

@@ -77,6 +77,8 @@ impl Simulation {
             Some(first) => first,
             None => self.first_step(instant, dynamics, &slope, end, settings),
         };
+        let powers = &slope[self.state.work_range()];
+        dynamics.start_works(self.state.time, self.state.works(), powers);
         bdf.start(self.state.time, &self.state.values, &slope, first);
         let mut next = 0;
         let mut ending = Ending::Completed;
@@ -151,6 +153,8 @@ impl Simulation {
         dynamics.multipliers.copy_from_slice(&self.multipliers);
         let first = 1e-3 * settings.longest_step;
         let slope = self.slope();
+        let powers = &slope[self.state.work_range()];
+        dynamics.start_works(self.state.time, self.state.works(), powers);
         bdf.start(self.state.time, &self.state.values, &slope, first);
         Ok(())
     }

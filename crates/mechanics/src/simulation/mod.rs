@@ -69,7 +69,6 @@ impl Simulation {
         let scales = Scales {
             length: system.length_scale(),
             rate: 1.0 / second,
-            mass: system.model().bodies.iter().map(|body| body.mass).sum(),
         };
         let mut state = system.given_state(0.0);
         state.extend(system.bristle_count(), system.work_count());

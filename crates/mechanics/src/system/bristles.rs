@@ -8,9 +8,9 @@ use crate::model::Law;
 
 /// Error of the deflection that a step may make, relative to that of the largest load: in units of the
 /// tolerance and at least while it sticks, and plainly where it slides (docs/decisions/0006).
-const STICKING_PART: f64 = 100.0;
-const LEAST_PART: f64 = 1e-4;
-const SLIDING_PART: f64 = 0.05;
+const STICKING_PART: f64 = 30.0;
+const LEAST_PART: f64 = 1e-6;
+const SLIDING_PART: f64 = 0.01;
 
 impl System {
     /// Number of bristle deflections: one by component of the surfaces of each LuGre friction.
@@ -68,7 +68,8 @@ impl System {
     }
 
     /// Writes the largest error of the deflections that a step may make at the instant evaluated last,
-    /// for the error `tolerance`: a part of the deflection of the largest load.
+    /// for the error `tolerance`: a part of the deflection of the largest load, the larger the less of
+    /// its past a step takes over.
     pub(crate) fn write_bristle_errors(
         &self,
         multipliers: &[f64],
@@ -87,7 +88,20 @@ impl System {
                 } else {
                     SLIDING_PART
                 };
-                errors[first..first + count].fill(part * level / law.bristle_stiffness);
+                // What a step takes over of the past deflection: G/(G + γ s0 v).
+                let speed = values.velocity.norm();
+                let present = law.stribeck(speed).0 * load;
+                let pull = self.bristles[place].gamma * law.bristle_stiffness * speed;
+                let kept = if present > 0.0 {
+                    present / (present + pull)
+                } else {
+                    0.0
+                };
+                errors[first..first + count].fill(if kept > 0.0 {
+                    part * level / (law.bristle_stiffness * kept)
+                } else {
+                    f64::INFINITY
+                });
             }
             first += count;
         }

@@ -3,7 +3,7 @@
 use results::ResFile;
 use stiction::{Outcome, Project, RunOptions};
 
-use crate::shared::{run, scratch_folder};
+use crate::shared::{run, run_text, scratch_folder};
 
 /// A slider-crank with bristles in all four joints; the wall presses now from above, now from below.
 fn slider_crank(stiffness: f64) -> String {
@@ -81,4 +81,29 @@ fn bristles_of_any_stiffness_carry_loads_that_change_sign() {
     std::fs::remove_dir_all(folder).unwrap();
     let (soft, stiff) = ((ends[1] - ends[3]).abs(), (ends[2] - ends[3]).abs());
     assert!(stiff < soft && stiff < 0.02, "{ends:?}");
+}
+
+/// Nothing but the bristles themselves resolves a reversal that a motion prescribes.
+#[test]
+fn bristles_follow_a_prescribed_reversal_at_the_default_error() {
+    let dataset = "A block that is driven to and fro
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=1
+FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, FORMULATION=LUGRE, DAMPING_COEFFICIENT=1
+MOTION/1, JOINT=1, TRANSLATIONAL, FUNCTION=0.2*SIN(5*TIME)
+ACCGRAV/JGRAV=-9.81
+RESULTS/XRF
+END
+";
+    let results = run_text(dataset, 1.0, 20, None);
+    let friction = column(&results, "FRICTION_1.FZ");
+    let peak = friction.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    // It slides at every output: 0.2 of the weight. A step may make an error of a hundredth.
+    let exact = 0.2 * 2.0 * 9.81;
+    println!("driven bristles: {peak} N of {exact}");
+    assert!((peak - exact).abs() < 0.02 * exact, "{peak}");
 }

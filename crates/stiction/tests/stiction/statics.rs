@@ -354,3 +354,21 @@ fn equilibrium_settings_are_those_of_the_statement_and_the_commands() {
     let position = value(&found.results, "static_001", "PART_2_XFORM.Z");
     assert!((position - 0.25).abs() < 2.5e-6, "{position}");
 }
+
+/// Friction that rests in statics has no creep from how far the model moved there.
+#[test]
+fn a_model_at_rest_stays_where_statics_left_it() {
+    let spring = SPRING.replace(
+        "REQUEST/1",
+        "ACCGRAV/JGRAV=-10\nFRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, INACTIVE=STATIC\nREQUEST/1",
+    );
+    let spring = spring.replace("10*TIME-40*DZ(20)", "20-40*DZ(20)");
+    let run = run(&spring, "SIMULATE/STATIC\nSIMULATE/DYNAMIC, END=1, STEPS=5");
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    let column = run.results.column("PART_2_XFORM.Z").unwrap();
+    let block = run.results.block("dynamic_001").unwrap();
+    for z in block.column(column) {
+        // An imbalance of 1e-4 on 40 per length.
+        assert!((z - 0.5).abs() < 2.5e-6, "{z}");
+    }
+}

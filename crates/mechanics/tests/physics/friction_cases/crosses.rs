@@ -81,8 +81,8 @@ fn work_of_a_cross_per_turn() {
             let end = run(shafts(cross, laws), &[turn], &settings, |_| {});
             let ours = *end.state().works().last().expect("the work of motions");
             let exact = number(&file, &format!("/cases/work_in_per_rev/{work}"));
-            let why = "pins below Vs = 1e-5 m/s of 0.06 m/s, and the error of the integrator";
-            claims.push(case.values("work of a turn [J]", &[ours], &[exact], 1e-5, why));
+            let why = "pins below Vs = 1e-5 m/s of 0.06 m/s; shafts without mass leave reactions to Newton's tolerance";
+            claims.push(case.values("work of a turn [J]", &[ours], &[exact], 5e-5, why));
         }
     }
     check(&claims);
