@@ -325,7 +325,17 @@ impl System {
             match &friction.law {
                 Law::Original(law) => {
                     let values = self.friction(place, multipliers).0.values;
-                    if values.mu.norm() >= SATURATED * law.mu_static {
+                    if law.effect == friction::Effect::Sliding {
+                        causes.push(format!(
+                            "{label} has EFFECT = SLIDING, which holds nothing at rest"
+                        ));
+                    } else if values.clipped {
+                        causes.push(format!("{label} is at its MAX_FRICTION limit"));
+                    } else if values.mu.norm() >= SATURATED * law.mu_static
+                        && values.load.value == 0.0
+                    {
+                        causes.push(format!("{label} is saturated: its preload holds no more"));
+                    } else if values.mu.norm() >= SATURATED * law.mu_static {
                         causes.push(format!(
                             "{label} is saturated: its load calls for more than MU_STATIC = {}",
                             law.mu_static

@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 use numerics::linear::{Matrix, SparseLu};
 
 use crate::instant::Failure;
-use crate::joint_friction::Share;
+use crate::joint_friction::{Memory, Share};
 use crate::model::{Element, Label};
 use crate::system::System;
 
@@ -63,17 +63,19 @@ impl GainWatch {
     }
 
     /// Looks at the instant evaluated last, if it is time to: often where gains are large, seldom
-    /// where geometry and coefficients leave them far from one.
+    /// where geometry and coefficients leave them far from one. `before` is what the frictions
+    /// remembered before the step that led there.
     pub(crate) fn look_seldom(
         &mut self,
         system: &mut System,
         multipliers: &[f64],
+        before: &[Memory],
     ) -> Result<Option<Jam>, Failure> {
         if self.wait > 0 {
             self.wait -= 1;
             return Ok(None);
         }
-        self.look(system, multipliers)
+        self.look_across(system, multipliers, Some(before))
     }
 
     /// Looks at the instant evaluated last.
@@ -82,11 +84,20 @@ impl GainWatch {
         system: &mut System,
         multipliers: &[f64],
     ) -> Result<Option<Jam>, Failure> {
+        self.look_across(system, multipliers, None)
+    }
+
+    fn look_across(
+        &mut self,
+        system: &mut System,
+        multipliers: &[f64],
+        before: Option<&[Memory]>,
+    ) -> Result<Option<Jam>, Failure> {
         if system.model.frictions.is_empty() {
             self.wait = usize::MAX;
             return Ok(None);
         }
-        let bound = self.gains(system, multipliers)?;
+        let bound = self.gains(system, multipliers, before)?;
         let interval = (LOOK_ALWAYS / bound).powi(2).clamp(1.0, LONGEST_INTERVAL);
         self.wait = interval as usize - 1;
         if bound < 1.0 {
@@ -101,7 +112,7 @@ impl GainWatch {
         if system.model.frictions.is_empty() {
             return None;
         }
-        self.gains(system, multipliers).ok()?;
+        self.gains(system, multipliers, None).ok()?;
         self.largest(system).filter(|jam| jam.gain >= NEAR_ONE)
     }
 
@@ -124,7 +135,15 @@ impl GainWatch {
 
     /// Fills the matrix of gains; returns a bound of its eigenvalues, whatever way the joints slide
     /// and however little of their coefficient they use.
-    fn gains(&mut self, system: &mut System, multipliers: &[f64]) -> Result<f64, Failure> {
+    ///
+    /// A joint that went from sliding to stuck in the step, or back, passed the speed at which its
+    /// coefficient is the static one: it counts with that, in the direction it has now.
+    fn gains(
+        &mut self,
+        system: &mut System,
+        multipliers: &[f64],
+        before: Option<&[Memory]>,
+    ) -> Result<f64, Failure> {
         let n = system.velocity_count();
         system.assemble_frictionless_instant(&self.zero, multipliers, &mut self.matrix);
         self.factors
@@ -147,17 +166,26 @@ impl GainWatch {
                 }
             }
             self.factors.solve(&mut self.right);
+            let unused =
+                system.model.frictions[k].law.largest_coefficient() / element.steady_coefficient;
+            let crossed = before.is_some_and(|before| {
+                before[k].tally.sticking != system.history.frictions[k].tally.sticking
+            });
+            let scale = if crossed && unused.is_finite() {
+                unused
+            } else {
+                1.0
+            };
             let mut sum = 0.0;
             for l in 0..frictions {
-                let gain = system.load_change(l, multipliers, &self.right[n..]);
+                let gain = scale * system.load_change(l, multipliers, &self.right[n..]);
                 self.gains[(l, k)] = gain;
                 sum += gain.abs();
             }
             // What is left of the coefficient may come yet; without any, the way it would act is
             // unknown, and the next step is looked at.
             bound = bound.max(if element.steady_coefficient > 0.0 {
-                sum * system.model.frictions[k].law.largest_coefficient()
-                    / element.steady_coefficient
+                sum * unused / scale
             } else if element.load_by_reaction.iter().any(|slope| *slope != 0.0) {
                 LOOK_ALWAYS
             } else {

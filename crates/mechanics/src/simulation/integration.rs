@@ -106,7 +106,11 @@ impl Simulation {
                 crossing = true;
                 continue;
             }
-            let jam = gains.look_seldom(&mut dynamics.system, &dynamics.multipliers);
+            let jam = gains.look_seldom(
+                &mut dynamics.system,
+                &dynamics.multipliers,
+                &dynamics.previous,
+            );
             let report = StepReport {
                 time: bdf.time(),
                 size: bdf.last_size(),

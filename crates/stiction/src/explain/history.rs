@@ -45,7 +45,7 @@ pub struct FrictionHistory {
     pub span: [f64; 2],
     /// Number of outputs.
     pub outputs: usize,
-    /// Share of the time stuck, in transition and sliding, from the outputs.
+    /// Share of the outputs stuck, in transition and sliding.
     pub regimes: [f64; 3],
     /// Number of sticks, counted step by step.
     pub stick_count: usize,
@@ -183,7 +183,7 @@ impl fmt::Display for FrictionHistory {
         for (regime, share) in REGIMES.iter().zip(self.regimes) {
             facts.push([
                 (*regime).to_owned(),
-                format!("{} of the time", percent(share)),
+                format!("{} of the outputs", percent(share)),
             ]);
         }
         let creep = if self.drift.is_some() {

@@ -17,6 +17,7 @@ mod examples;
 mod explain;
 mod instants;
 mod invariance;
+mod jams;
 mod jumps;
 mod lowering;
 mod machines;
