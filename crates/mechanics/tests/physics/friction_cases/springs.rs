@@ -9,7 +9,7 @@ use verification::{Case, Rule, Section, check};
 use super::{HALVINGS, LIMIT, TURNS, original};
 use crate::builder::{Builder, v};
 use crate::runs::{Sample, every, run, settings, turning_points};
-use crate::shared::{number, reference};
+use crate::shared::{number, reference, table};
 use crate::systems::law;
 use crate::systems::sliding::{Block, place, speed};
 
@@ -208,6 +208,54 @@ fn belt_with_stick_and_slip() {
             why,
         ),
     ]);
+}
+
+/// A12d: how far the law itself is from exact stick and slip on the belt of C03.
+#[test]
+fn belt_against_exact_stick_and_slip() {
+    let Some(file) = reference("validation/data/A12_original_law.json") else {
+        return;
+    };
+    let Some(exact) = reference_data::path("validation/data/C03_belt_m1_k20.csv").map(table) else {
+        return;
+    };
+    let belt = Belt {
+        mass: 1.0,
+        gravity: 9.81,
+        stiffness: 20.0,
+        speed: 0.1,
+        start: 0.0,
+    };
+    let times: Vec<f64> = exact[1..].iter().map(|row| row[0]).collect();
+    let levels = ["0.002", "0.001", "0.0005"];
+    let farthest = [2e-3, 1e-3, 5e-4].map(|vs| {
+        let settings = settings(Formulation::Si2, 1e-10, 0.01);
+        let (mut row, mut largest) = (1, 0.0_f64);
+        run(
+            belt.model(law(0.15, 0.1, vs, 0.1 * vs)),
+            &times,
+            &settings,
+            |s| {
+                largest = largest.max((place(s) - exact[row][1]).abs());
+                row += 1;
+            },
+        );
+        largest
+    });
+    let case = Case {
+        section: Section::Mechanism,
+        id: "A12d",
+        model: "1 kg on a belt of 0.1 m/s, spring 20 N/m, μs 0.15, μd 0.1, 5 s; Vs from 2 mm/s, Dm = 0.1 s Vs",
+        source: "the law itself and exact stick and slip, 50 instants",
+        covers: &[],
+    };
+    check(&[case.values(
+        "largest distance from exact stick and slip [m]",
+        &farthest,
+        &levels.map(|vs| number(&file, &format!("/cases/d_belt/max_dev/{vs}"))),
+        2e-7,
+        "how the displacement within the step that enters the stick regime counts as creep is ours",
+    )]);
 }
 
 /// C03: a belt so fast that the block never sticks.
