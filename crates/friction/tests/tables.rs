@@ -4,20 +4,12 @@ mod shared;
 
 use friction::step::step5;
 use friction::{Effect, Original};
-use shared::{law, of_the_law, reference};
+use shared::{law, of_the_law, reference, table};
 use verification::check;
 
-/// Numbers of a comma-separated table after its header line.
-fn table(text: &str) -> Vec<Vec<f64>> {
-    let rows: Vec<Vec<f64>> = text
-        .lines()
-        .skip(1)
-        .map(|line| {
-            line.split(',')
-                .map(|cell| cell.trim().parse().unwrap())
-                .collect()
-        })
-        .collect();
+/// Numbers of a table that is not all but empty.
+fn long_table(text: &str) -> Vec<Vec<f64>> {
+    let rows = table(text);
     assert!(rows.len() > 10);
     rows
 }
@@ -27,7 +19,7 @@ fn quintic_table_a01() {
     let Some(text) = reference("validation/data/A01_step5.csv") else {
         return;
     };
-    let errors = table(&text)
+    let errors = long_table(&text)
         .into_iter()
         .map(|row| (step5(row[0], 0.0, 0.0, 1.0, 1.0).value - row[1]).abs());
     let case = of_the_law("A01", "the quintic step from 0 to 1", "exact");
@@ -108,7 +100,7 @@ fn coefficient_table_a12() {
         mu_dynamic: 0.25,
         ..law(Effect::All)
     };
-    let errors = table(&text).into_iter().map(|row| {
+    let errors = long_table(&text).into_iter().map(|row| {
         let c = law.evaluate(&[row[0]], &[row[1]]);
         (-c.mu[0] - row[2]).abs()
     });

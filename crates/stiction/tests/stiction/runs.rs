@@ -1,17 +1,9 @@
 //! Runs of command files with all that they write.
 
 use results::ResFile;
-use stiction::{Progress, Project, RunOptions, RunReport, Session, Watch};
+use stiction::{Project, RunOptions, RunReport, Session};
 
-use crate::shared::scratch_folder;
-
-struct GoOn;
-
-impl Watch for GoOn {
-    fn progress(&mut self, _: &Progress) -> bool {
-        true
-    }
-}
+use crate::shared::{GoOn, scratch_folder};
 
 /// A run with its files.
 pub(crate) struct Run {
