@@ -1,0 +1,206 @@
+//! Functions of time and measures, compiled to a list of operations.
+//!
+//! A [`Program`] is a straight line of operations, each reading registers before it. It is built
+//! once ([`Program::push`]) and evaluated without allocation: values forward, and the exact
+//! gradient by one sweep back (reverse accumulation: Griewank & Walther, *Evaluating Derivatives*,
+//! chapter 3). Composite functions such as STEP or IMPACT are written in these few operations when
+//! a program is built, so each derivative rule stands here once.
+
+mod functions;
+
+use crate::scalar::Scalar;
+pub use functions::{Binary, Unary};
+use functions::{binary, binary_slopes, unary};
+
+/// Place of an operation's result.
+pub type Register = u32;
+
+/// What an operation reads from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Time.
+    Time,
+    /// A measure, by its place in [`crate::model::Model::measures`].
+    Measure(usize),
+    /// A result of the solution (a reaction or friction component), by the caller's number. Only
+    /// outputs may read one.
+    Result(usize),
+}
+
+/// One operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operation {
+    /// A number.
+    Constant(f64),
+    /// A value from outside.
+    Input(Input),
+    /// A function of one register.
+    Unary(Unary, Register),
+    /// A function of two registers.
+    Binary(Binary, Register, Register),
+    /// IF: the first register decides between the other three (negative, zero, positive).
+    Select(Register, Register, Register, Register),
+}
+
+/// A compiled function; its value is that of the last operation.
+///
+/// ```
+/// use mechanics::expression::{Binary, Input, Operation, Program, Unary};
+/// let mut program = Program::default();
+/// let t = program.push(Operation::Input(Input::Time));
+/// let s = program.push(Operation::Unary(Unary::Sin, t));
+/// program.push(Operation::Binary(Binary::Multiply, t, s));
+/// let mut registers = vec![0.0; program.len()];
+/// assert_eq!(program.evaluate(&mut registers, |_| 2.0), 2.0 * 2.0_f64.sin());
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    operations: Vec<Operation>,
+}
+
+impl Program {
+    /// A program that is a constant.
+    #[must_use]
+    pub fn constant(value: f64) -> Self {
+        Self {
+            operations: vec![Operation::Constant(value)],
+        }
+    }
+
+    /// Appends an operation; registers it reads must exist.
+    ///
+    /// # Panics
+    /// When the operation reads a register that does not exist yet.
+    pub fn push(&mut self, operation: Operation) -> Register {
+        let new = self.operations.len() as Register;
+        let before = match operation {
+            Operation::Constant(_) | Operation::Input(_) => true,
+            Operation::Unary(_, a) => a < new,
+            Operation::Binary(_, a, b) => a.max(b) < new,
+            Operation::Select(a, b, c, d) => a.max(b).max(c.max(d)) < new,
+        };
+        assert!(before, "an operation reads registers before it");
+        self.operations.push(operation);
+        new
+    }
+
+    /// Number of operations, which is the number of registers that an evaluation needs.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.operations.len()
+    }
+
+    /// True for a program without operations, which has no value.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.operations.is_empty()
+    }
+
+    /// Everything the program reads, with repetitions.
+    pub fn inputs(&self) -> impl Iterator<Item = Input> + '_ {
+        self.operations
+            .iter()
+            .filter_map(|operation| match operation {
+                Operation::Input(input) => Some(*input),
+                _ => None,
+            })
+    }
+
+    /// Value, with the inputs that `read` gives; `registers` must hold [`Program::len`] numbers.
+    pub fn evaluate(&self, registers: &mut [f64], read: impl Fn(Input) -> f64) -> f64 {
+        self.run(registers, read)
+    }
+
+    pub(crate) fn run<T: Scalar>(&self, registers: &mut [T], read: impl Fn(Input) -> T) -> T {
+        for (place, operation) in self.operations.iter().enumerate() {
+            let at = |r: Register| registers[r as usize];
+            registers[place] = match *operation {
+                Operation::Constant(value) => T::constant(value),
+                Operation::Input(input) => read(input),
+                Operation::Unary(function, a) => {
+                    let (value, slope, curvature) = unary(function, at(a).value());
+                    at(a).chain(value, slope, curvature)
+                }
+                Operation::Binary(function, a, b) => binary(function, at(a), at(b)),
+                Operation::Select(a, negative, zero, positive) => {
+                    at(select(at(a).value(), negative, zero, positive))
+                }
+            };
+        }
+        registers[self.operations.len() - 1]
+    }
+
+    /// Calls `derivative(input, slope)` for every input of the program, after
+    /// [`Program::evaluate`] has filled `registers`; `adjoints` is scratch of the same length.
+    ///
+    /// The calls are always the same in number and order, also where a slope is zero, so that a
+    /// matrix can be assembled from them.
+    pub fn gradient(
+        &self,
+        registers: &[f64],
+        adjoints: &mut [f64],
+        mut derivative: impl FnMut(Input, f64),
+    ) {
+        let count = self.operations.len();
+        adjoints[..count].fill(0.0);
+        adjoints[count - 1] = 1.0;
+        for place in (0..count).rev() {
+            let adjoint = adjoints[place];
+            if let Operation::Input(input) = self.operations[place] {
+                derivative(input, adjoint);
+            }
+            // Branches that were not taken must not add 0 · ∞.
+            if adjoint == 0.0 {
+                continue;
+            }
+            let at = |r: Register| registers[r as usize];
+            match self.operations[place] {
+                Operation::Constant(_) | Operation::Input(_) => {}
+                Operation::Unary(function, a) => {
+                    adjoints[a as usize] += adjoint * unary(function, at(a)).1;
+                }
+                Operation::Binary(function, a, b) => {
+                    let (by_a, by_b) = binary_slopes(function, at(a), at(b), registers[place]);
+                    adjoints[a as usize] += adjoint * by_a;
+                    adjoints[b as usize] += adjoint * by_b;
+                }
+                Operation::Select(a, negative, zero, positive) => {
+                    adjoints[select(at(a), negative, zero, positive) as usize] += adjoint;
+                }
+            }
+        }
+    }
+}
+
+fn select(x: f64, negative: Register, zero: Register, positive: Register) -> Register {
+    if x < 0.0 {
+        negative
+    } else if x > 0.0 {
+        positive
+    } else {
+        zero
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_branch_not_taken_leaves_no_trace() {
+        // IF(x: 1, 1, SQRT(x)) at x < 0: the square root is not a number but is not taken.
+        let mut program = Program::default();
+        let x = program.push(Operation::Input(Input::Time));
+        let one = program.push(Operation::Constant(1.0));
+        let root = program.push(Operation::Unary(Unary::Sqrt, x));
+        program.push(Operation::Select(x, one, one, root));
+        let mut registers = [0.0; 4];
+        assert_eq!(program.evaluate(&mut registers, |_| -4.0), 1.0);
+        let mut calls = 0;
+        program.gradient(&registers, &mut [0.0; 4], |_, slope| {
+            assert_eq!(slope, 0.0);
+            calls += 1;
+        });
+        assert_eq!(calls, 1);
+    }
+}

@@ -1,0 +1,210 @@
+//! Curves through data points, in pieces of cubic polynomials.
+
+mod akima;
+mod cubic;
+
+/// A piecewise cubic with its extrapolation on both sides.
+///
+/// ```
+/// use numerics::interpolation::{Extrapolation, PiecewiseCubic};
+/// let x = [0.0, 1.0, 2.0, 4.0];
+/// let curve = PiecewiseCubic::cubic_spline(&x, &x.map(|x| x * x), Extrapolation::Parabola);
+/// let [value, slope, curvature, ..] = curve.derivatives(3.0);
+/// assert!((value - 9.0).abs() < 1e-14);
+/// assert!((slope - 6.0).abs() < 1e-14);
+/// assert!((curvature - 2.0).abs() < 1e-14);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PiecewiseCubic {
+    knots: Vec<f64>,
+    /// Before the first knot, between the knots, behind the last one: coefficients of the powers
+    /// of the distance from the knot before the piece (of the first piece: from the first knot).
+    pieces: Vec<[f64; 4]>,
+}
+
+/// How a curve goes on outside its data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extrapolation {
+    /// The line through the first or the last two points.
+    Line,
+    /// The parabola through the first or the last three points.
+    Parabola,
+}
+
+impl PiecewiseCubic {
+    /// Akima's interpolation: slopes from the four nearest secants, no overshoot beside jumps; the
+    /// slope is continuous. H. Akima, *A new method of interpolation and smooth curve fitting based
+    /// on local procedures*, J. ACM 17 (1970) 589-602; ends by his section 2.3.
+    ///
+    /// # Panics
+    /// With fewer than four points, or as many `y` as `x` do not come, or `x` that does not
+    /// increase: callers check their data.
+    #[must_use]
+    pub fn akima(x: &[f64], y: &[f64], extrapolation: Extrapolation) -> Self {
+        check(x, y);
+        Self::through(x, y, &akima::slopes(x, y), extrapolation)
+    }
+
+    /// The cubic spline: two continuous derivatives; at the second and the last but one point the
+    /// third is continuous too ("not a knot": C. de Boor, *A Practical Guide to Splines*, chapter
+    /// IV), so that a cubic is met everywhere.
+    ///
+    /// # Panics
+    /// As [`PiecewiseCubic::akima`].
+    #[must_use]
+    pub fn cubic_spline(x: &[f64], y: &[f64], extrapolation: Extrapolation) -> Self {
+        check(x, y);
+        Self::through(x, y, &cubic::slopes(x, y), extrapolation)
+    }
+
+    /// The curve through points with given slopes there.
+    fn through(x: &[f64], y: &[f64], slopes: &[f64], extrapolation: Extrapolation) -> Self {
+        let last = x.len() - 1;
+        let (first_secant, last_secant) = (secant(x, y, 0), secant(x, y, last - 1));
+        let (first_bend, last_bend) = match extrapolation {
+            Extrapolation::Line => (0.0, 0.0),
+            Extrapolation::Parabola => (
+                (secant(x, y, 1) - first_secant) / (x[2] - x[0]),
+                (last_secant - secant(x, y, last - 2)) / (x[last] - x[last - 2]),
+            ),
+        };
+        let mut pieces = Vec::with_capacity(x.len() + 1);
+        // The parabola's slope at its outer point, from that of the secant beside it.
+        let slope = first_secant - first_bend * (x[1] - x[0]);
+        pieces.push([y[0], slope, first_bend, 0.0]);
+        for k in 0..last {
+            let h = x[k + 1] - x[k];
+            let m = secant(x, y, k);
+            let (left, right) = (slopes[k], slopes[k + 1]);
+            pieces.push([
+                y[k],
+                left,
+                (3.0 * m - 2.0 * left - right) / h,
+                (left + right - 2.0 * m) / (h * h),
+            ]);
+        }
+        let slope = last_secant + last_bend * (x[last] - x[last - 1]);
+        pieces.push([y[last], slope, last_bend, 0.0]);
+        Self {
+            knots: x.to_vec(),
+            pieces,
+        }
+    }
+
+    /// The given `x` of the points.
+    #[must_use]
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// Value and first four derivatives at `x`; at a knot those of the piece behind it.
+    #[must_use]
+    pub fn derivatives(&self, x: f64) -> [f64; 5] {
+        let piece = self.knots.partition_point(|knot| *knot <= x);
+        let [a, b, c, d] = self.pieces[piece];
+        let s = x - self.knots[piece.saturating_sub(1)];
+        [
+            a + s * (b + s * (c + s * d)),
+            b + s * (2.0 * c + s * 3.0 * d),
+            2.0 * c + 6.0 * d * s,
+            6.0 * d,
+            0.0,
+        ]
+    }
+}
+
+fn check(x: &[f64], y: &[f64]) {
+    assert!(x.len() >= 4 && x.len() == y.len(), "at least four points");
+    assert!(x.windows(2).all(|pair| pair[0] < pair[1]), "x increases");
+}
+
+/// Slope of the line from point `k` to the next one.
+fn secant(x: &[f64], y: &[f64], k: usize) -> f64 {
+    (y[k + 1] - y[k]) / (x[k + 1] - x[k])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: [f64; 7] = [-1.0, 0.0, 0.5, 2.0, 2.5, 4.0, 5.0];
+    const Y: [f64; 7] = [2.0, -1.0, 0.0, 3.0, 3.0, 1.0, 1.5];
+
+    fn both(extrapolation: Extrapolation) -> [PiecewiseCubic; 2] {
+        [
+            PiecewiseCubic::akima(&X, &Y, extrapolation),
+            PiecewiseCubic::cubic_spline(&X, &Y, extrapolation),
+        ]
+    }
+
+    #[test]
+    fn derivatives_match_differences_inside_every_piece() {
+        for curve in both(Extrapolation::Parabola) {
+            for x in [-2.0, -0.3, 0.2, 1.1, 2.2, 3.3, 4.4, 6.0] {
+                let h = 1e-5;
+                let [behind, here, ahead] = [x - h, x, x + h].map(|x| curve.derivatives(x));
+                for k in 0..4 {
+                    let slope = (ahead[k] - behind[k]) / (2.0 * h);
+                    // Truncation h² times a third derivative of about ten, rounding 1e-16/h.
+                    assert!((here[k + 1] - slope).abs() < 1e-8, "{x} {k}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn curves_meet_their_points_and_are_as_smooth_as_said() {
+        let beside = 1e-9;
+        for (curve, smooth) in both(Extrapolation::Parabola).into_iter().zip([1, 2]) {
+            for (k, (x, y)) in X.into_iter().zip(Y).enumerate() {
+                assert!((curve.derivatives(x)[0] - y).abs() < 1e-14);
+                if k == 0 || k == X.len() - 1 {
+                    continue;
+                }
+                let (left, right) = (curve.derivatives(x - beside), curve.derivatives(x));
+                for order in 0..=smooth {
+                    // The distance of the two places times derivatives of up to fifty.
+                    let jump = (left[order] - right[order]).abs();
+                    assert!(jump < 1e-7, "derivative {order} at {x}: {jump}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_cubic_is_its_own_spline_and_a_parabola_is_extrapolated() {
+        let cubic = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x + 0.3 * x * x * x;
+        let curve = PiecewiseCubic::cubic_spline(&X, &X.map(cubic), Extrapolation::Line);
+        for x in [-0.9, 0.3, 1.7, 3.1, 4.9] {
+            assert!((curve.derivatives(x)[0] - cubic(x)).abs() < 1e-13);
+        }
+        let parabola = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x;
+        // Akima's ends are parabolas (his section 2.3) and a line's are lines.
+        let curve = PiecewiseCubic::akima(&X, &X.map(parabola), Extrapolation::Parabola);
+        for x in [-5.0, 9.0] {
+            assert!((curve.derivatives(x)[0] - parabola(x)).abs() < 1e-13);
+        }
+        let [akima, spline] = both(Extrapolation::Line);
+        for curve in [akima, spline] {
+            assert!((curve.derivatives(-2.0)[0] - 5.0).abs() < 1e-14);
+            assert!((curve.derivatives(7.0)[0] - 2.5).abs() < 1e-14);
+            assert_eq!(curve.derivatives(7.0)[2], 0.0);
+        }
+    }
+
+    #[test]
+    fn akima_is_local_and_has_no_overshoot_beside_a_jump() {
+        // Table 1 of the paper: flat on the left, so it stays flat up to the jump's interval.
+        let x: [f64; 11] = std::array::from_fn(|k| k as f64);
+        let y = [
+            10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.5, 15.0, 50.0, 60.0, 85.0,
+        ];
+        let curve = PiecewiseCubic::akima(&x, &y, Extrapolation::Parabola);
+        for k in 0..=40 {
+            assert_eq!(curve.derivatives(0.1 * f64::from(k))[0], 10.0);
+        }
+        // At x = 6 the secants are 0, 1/2, 9/2 and 35: the slope is (30.5·0.5 + 0.5·4.5)/31.
+        let wanted = (30.5 * 0.5 + 0.5 * 4.5) / 31.0;
+        assert!((curve.derivatives(6.0)[1] - wanted).abs() < 1e-14);
+    }
+}
