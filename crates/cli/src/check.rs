@@ -96,8 +96,8 @@ fn message_json(message: &Message) -> Value {
         "code": diagnostic.code.as_str(),
         "message": diagnostic.message,
         "file": diagnostic.source,
-        "line": message.line,
-        "column": message.column,
+        "line": message.location.start.line,
+        "column": message.location.start.column,
         "notes": diagnostic.notes,
         "help": diagnostic.help,
     })

@@ -133,7 +133,7 @@ impl Parser<'_, '_> {
                 let found = self.source.excerpt(span);
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);
-                error.help = near.map(|near| format!("is {near} meant?"));
+                error.meant(near);
                 if self.items[name_at].starts_line {
                     error.note("the comma at the end of the line before continues the statement");
                 }
@@ -494,6 +494,7 @@ impl Parser<'_, '_> {
                     .diagnostics
                     .error(problem.code, problem.span, problem.message);
                 error.help = problem.help;
+                error.meant(problem.meant);
                 Err(Refused)
             }
         }

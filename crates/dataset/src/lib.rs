@@ -37,7 +37,7 @@ mod syntax;
 
 pub use change::parse_change;
 pub use commands::read_commands;
-pub use diagnostic::{Code, Diagnostic, Severity};
+pub use diagnostic::{Code, Diagnostic, Location, Place, Replacement, Severity};
 pub use expression::{
     ArgumentKind, BinaryOperator, DEEPEST, ElementKind, Expr, Expression, Function,
 };

@@ -54,7 +54,6 @@ pub(crate) fn nearest(
     word: &str,
     names: impl Iterator<Item = &'static str>,
 ) -> Option<&'static str> {
-    let word = word.to_ascii_uppercase();
     if word.len() > LONGEST_NAME {
         return None;
     }
@@ -65,28 +64,31 @@ pub(crate) fn nearest(
         .filter(|(edits, name)| *edits <= most(name))
         .filter(|(edits, name)| *edits < name.len())
         // Of several, the one that starts like the word is meant.
-        .min_by_key(|(edits, name)| (*edits, usize::MAX - shared_start(&word, name)))
+        .min_by_key(|(edits, name)| (*edits, usize::MAX - shared_start(word, name)))
         .map(|(_, name)| name)
 }
 
 /// The number of letters that two names have in common at their starts.
 fn shared_start(a: &str, b: &str) -> usize {
-    a.bytes().zip(b.bytes()).take_while(|(a, b)| a == b).count()
+    let pairs = a.bytes().zip(b.bytes());
+    pairs.take_while(|(a, b)| a.eq_ignore_ascii_case(b)).count()
 }
 
 /// No name of the language is longer than this.
 const LONGEST_NAME: usize = 40;
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`, whatever the
+/// case of the letters.
 fn edits(a: &[u8], b: &[u8]) -> usize {
+    let same = |i: usize, j: usize| a[i].eq_ignore_ascii_case(&b[j]);
     let mut before_last = vec![0; b.len() + 1];
     let mut last: Vec<usize> = (0..=b.len()).collect();
     for i in 0..a.len() {
         let mut row = vec![i + 1; b.len() + 1];
         for j in 0..b.len() {
-            let replaced = last[j] + usize::from(a[i] != b[j]);
+            let replaced = last[j] + usize::from(!same(i, j));
             row[j + 1] = replaced.min(last[j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+            if i > 0 && j > 0 && same(i, j - 1) && same(i - 1, j) {
                 row[j + 1] = row[j + 1].min(before_last[j - 1] + 1);
             }
         }

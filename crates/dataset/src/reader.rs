@@ -78,7 +78,8 @@ fn title(source: &Source, tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> S
                 token.span(),
                 "this line looks like a statement, but the first line is the title",
             )
-            .help("put a title, which may be empty, before it");
+            .help("put a title, which may be empty, before it")
+            .replace(Span::default(), "\n");
     }
     text.trim_end().to_string()
 }
@@ -224,8 +225,9 @@ pub(crate) fn find(
             let near = names::nearest(word, names.map(|name| name.full));
             let found = diagnostics.source.excerpt(span);
             let message = format!("no {what} is called {found}");
-            let error = diagnostics.error(Code::UnknownStatement, span, message);
-            error.help = near.map(|near| format!("is {near} meant?"));
+            diagnostics
+                .error(Code::UnknownStatement, span, message)
+                .meant(near);
         }
     }
     None

@@ -270,16 +270,11 @@ impl<'a, 's> Reading<'a, 's> {
             "{keyword} cannot be {}",
             self.diagnostics.source.excerpt(span)
         );
-        let help = match near {
-            Some(near) => format!("is {near} meant?"),
-            None => {
-                let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
-                format!("it can be {}", names.join(", "))
-            }
-        };
+        let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
         self.diagnostics
             .error(Code::InvalidValue, span, message)
-            .help(help);
+            .help(format!("it can be {}", names.join(", ")))
+            .meant(near);
         None
     }
 

@@ -52,15 +52,9 @@ impl Source {
     /// (real datasets hold a few NULs in texts); `too-large` above [`LONGEST_SOURCE`].
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Box<Diagnostic>> {
         let refuse = |code, message: String, help: &str| {
-            Err(Box::new(Diagnostic {
-                code,
-                severity: Severity::Error,
-                message,
-                source: name.to_string(),
-                span: Span::default(),
-                notes: Vec::new(),
-                help: Some(help.to_string()),
-            }))
+            let mut error = Diagnostic::new(Severity::Error, code, name, Span::default(), message);
+            error.help(help);
+            Err(Box::new(error))
         };
         let is_control = |byte: u8| byte < 32 && !matches!(byte, b'\t' | b'\n' | b'\r' | 12 | 26);
         let controls = bytes.iter().filter(|byte| is_control(**byte)).count();

@@ -111,15 +111,15 @@ fn refused_simulations(project: &Project) -> Vec<Message> {
             return None;
         }
         let source = project.source(step.source);
-        let diagnostic = Diagnostic {
-            code: Code::UnsupportedStatement,
-            severity: Severity::Error,
-            message: format!("SIMULATE/{} is not simulated yet", simulate.kind.keyword()),
-            source: source.name().to_owned(),
-            span: step.command.span,
-            notes: Vec::new(),
-            help: Some("a run ends there; what comes before it is simulated".to_owned()),
-        };
+        let message = format!("SIMULATE/{} is not simulated yet", simulate.kind.keyword());
+        let mut diagnostic = Diagnostic::new(
+            Severity::Error,
+            Code::UnsupportedStatement,
+            source.name(),
+            step.command.span,
+            message,
+        );
+        diagnostic.help("a run ends there; what comes before it is simulated");
         Some(Message::new(diagnostic, source))
     });
     refused.collect()

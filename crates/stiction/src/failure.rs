@@ -42,15 +42,9 @@ fn message(
     help: &str,
 ) -> Message {
     let span = element.and_then(|element| span_of(dataset, element));
-    let diagnostic = Diagnostic {
-        code,
-        severity: Severity::Error,
-        message: text,
-        source: source.name().to_owned(),
-        span: span.unwrap_or(Span { start: 0, end: 0 }),
-        notes: Vec::new(),
-        help: Some(help.to_owned()),
-    };
+    let span = span.unwrap_or_default();
+    let mut diagnostic = Diagnostic::new(Severity::Error, code, source.name(), span, text);
+    diagnostic.help(help);
     Message::new(diagnostic, source)
 }
 

@@ -80,7 +80,8 @@ impl<W: Write> Journal<W> {
 
     /// A warning or note about the input.
     pub(crate) fn message(&mut self, message: &Message) -> Result<(), OutputError> {
-        let text = message.text.trim_end();
+        let text = message.to_string();
+        let text = text.trim_end();
         if message.diagnostic.severity == Severity::Note {
             self.note(text)
         } else {

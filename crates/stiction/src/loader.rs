@@ -62,7 +62,11 @@ impl Loader {
             },
             Err(error) => {
                 let message = format!("cannot read {shown}: {error}");
-                self.report(&shown, naming, message, None);
+                let help = match naming {
+                    Some(_) => "a file named by a command is looked for beside the command file",
+                    None => "name a dataset (.adm) or a command file (.acf)",
+                };
+                self.report(Code::MissingFile, &shown, naming, message, Some(help));
                 return None;
             }
         };
@@ -73,22 +77,17 @@ impl Loader {
 
     fn report(
         &mut self,
+        code: Code,
         file: &str,
         naming: Option<&Naming>,
         message: String,
-        help: Option<String>,
+        help: Option<&str>,
     ) {
         let empty = Source::from_text(file, String::new());
         let source = naming.map_or(&empty, |naming| &self.sources[naming.source]);
-        let diagnostic = Diagnostic {
-            code: Code::MissingElement,
-            severity: Severity::Error,
-            message,
-            source: source.name().to_owned(),
-            span: naming.map_or_else(Span::default, |naming| naming.span),
-            notes: Vec::new(),
-            help,
-        };
+        let span = naming.map_or_else(Span::default, |naming| naming.span);
+        let mut diagnostic = Diagnostic::new(Severity::Error, code, source.name(), span, message);
+        diagnostic.help = help.map(str::to_owned);
         self.messages.push(Message::new(diagnostic, source));
     }
 
@@ -149,14 +148,15 @@ impl Loader {
                         open.extend(self.open(&found, Some(&naming)));
                     } else {
                         let message = format!("{} is called twice", found.display());
-                        self.report("", Some(&naming), message, None);
+                        let help = Some("a file that calls itself would never end");
+                        self.report(Code::RepeatedFile, "", Some(&naming), message, help);
                     }
                     continue;
                 }
                 CommandKind::Simulate(_) | CommandKind::Change(_) if self.prefix.is_none() => {
                     let message = "this command comes before any model".to_owned();
-                    let help = Some("write FILE/MODEL=name before it".to_owned());
-                    self.report("", Some(&naming), message, help);
+                    let help = Some("write FILE/MODEL=name before it");
+                    self.report(Code::NoModel, "", Some(&naming), message, help);
                     continue;
                 }
                 _ => {}
@@ -168,20 +168,20 @@ impl Loader {
         }
         if named && self.dataset.is_none() && !self.messages.iter().any(Message::is_error) {
             let message = "this command file names no model".to_owned();
-            let help = Some("write FILE/MODEL=name before the first SIMULATE".to_owned());
+            let help = Some("write FILE/MODEL=name before the first SIMULATE");
             let naming = Naming {
                 source: 0,
                 span: Span::default(),
             };
-            self.report("", Some(&naming), message, help);
+            self.report(Code::NoModel, "", Some(&naming), message, help);
         }
     }
 
     fn model(&mut self, folder: &Path, path: &str, prefix: Option<&str>, naming: &Naming) {
         if self.dataset.is_some() {
             let message = "a second model in one run is not supported yet".to_owned();
-            let help = Some("use one command file for each model".to_owned());
-            self.report("", Some(naming), message, help);
+            let help = Some("use one command file for each model");
+            self.report(Code::UnsupportedStatement, "", Some(naming), message, help);
             return;
         }
         self.prefix = prefix

@@ -1,32 +1,25 @@
 //! Messages with their place, ready to be shown.
 
-use dataset::{Diagnostic, Severity, Source};
+use dataset::{Diagnostic, Location, Severity, Source};
 
-/// A diagnostic with its line and column and the text that shows it.
+/// A diagnostic with its place. As text it is `file:line:column: severity[code]: message`, the line
+/// of the source and help; it ends with a newline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
     /// What it says, with its code and severity.
     pub diagnostic: Diagnostic,
-    /// Line, counted from 1.
-    pub line: usize,
-    /// Column, counted from 1.
-    pub column: usize,
-    /// `file:line:column: severity[code]: message`, the line of the source and help; it ends with
-    /// a newline.
-    pub text: String,
+    /// Where that is.
+    pub location: Location,
 }
 
 impl Message {
     /// The message of a diagnostic about `source`.
     #[must_use]
     pub fn new(diagnostic: Diagnostic, source: &Source) -> Self {
-        let (line, column) = source.line_column(diagnostic.span.start);
-        let text = diagnostic.render(source);
+        let location = diagnostic.locate(source);
         Self {
             diagnostic,
-            line,
-            column,
-            text,
+            location,
         }
     }
 
@@ -39,7 +32,7 @@ impl Message {
 
 impl std::fmt::Display for Message {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.text)
+        f.write_str(&self.diagnostic.render_at(&self.location))
     }
 }
 

@@ -233,15 +233,14 @@ impl Project {
     /// An error about a command.
     pub(crate) fn refuse(&self, message: String, step: &SourcedCommand) -> Message {
         let source = &self.sources[step.source];
-        let diagnostic = Diagnostic {
-            code: Code::InvalidValue,
-            severity: Severity::Error,
+        let span = step.command.span;
+        let diagnostic = Diagnostic::new(
+            Severity::Error,
+            Code::InvalidValue,
+            source.name(),
+            span,
             message,
-            source: source.name().to_owned(),
-            span: step.command.span,
-            notes: Vec::new(),
-            help: None,
-        };
+        );
         Message::new(diagnostic, source)
     }
 
@@ -270,15 +269,13 @@ impl Project {
         let moved = diagnostics
             .filter(|d| d.severity == Severity::Error)
             .map(|d| {
-                let span = command.command.span;
-                Message::new(
-                    Diagnostic {
-                        source: source.name().to_owned(),
-                        span,
-                        ..d
-                    },
-                    source,
-                )
+                let moved = Diagnostic {
+                    source: source.name().to_owned(),
+                    span: command.command.span,
+                    replacement: None,
+                    ..d
+                };
+                Message::new(moved, source)
             });
         moved.collect()
     }

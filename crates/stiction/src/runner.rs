@@ -77,7 +77,7 @@ impl Halt {
 
     /// A failure with its place.
     pub(crate) fn located(outcome: fn(String) -> Outcome, message: &Message) -> Self {
-        Self::Ended(outcome(message.text.trim_end().to_owned()))
+        Self::Ended(outcome(message.to_string().trim_end().to_owned()))
     }
 
     /// What an event does to the run after the simulation that it has ended.

@@ -20,6 +20,8 @@ pub(crate) struct Problem {
     pub(crate) span: Span,
     pub(crate) message: String,
     pub(crate) help: Option<String>,
+    /// The name that may have been meant.
+    pub(crate) meant: Option<&'static str>,
 }
 
 /// The most brackets, calls and signs inside one another.
@@ -132,6 +134,7 @@ impl Parser<'_> {
             span,
             message,
             help: None,
+            meant: None,
         }
     }
 
@@ -336,11 +339,13 @@ impl Parser<'_> {
         let mut problem = self.problem(Code::UnknownFunction, item.span(), message);
         let functions = Function::ALL.iter().map(|function| function.name());
         let constants = ["TIME", "MODE", "PI", "DTOR", "RTOD"].into_iter();
-        problem.help = if let Some(function) = Function::from_name(name) {
-            Some(format!("{} takes arguments in brackets", function.name()))
-        } else {
-            names::nearest(name, functions.chain(constants)).map(|near| format!("is {near} meant?"))
-        };
+        match Function::from_name(name) {
+            Some(function) => {
+                let function = function.name();
+                problem.help = Some(format!("{function} takes arguments in brackets"));
+            }
+            None => problem.meant = names::nearest(name, functions.chain(constants)),
+        }
         problem
     }
 

@@ -6,6 +6,7 @@ use crate::diagnostic::Code;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
 use crate::reading::Reading;
+use crate::source::Span;
 
 const VECTOR: Kind = Kind::Reals(3, 3);
 const FLEXIBLE: &str = "parts are rigid";
@@ -195,7 +196,8 @@ fn part_before(reading: &mut Reading, builder: &mut Builder) -> MarkerOwner {
     reading
         .diagnostics
         .warning(Code::MissingArgument, span, message)
-        .help(format!("write PART = {id}"));
+        .help(format!("write PART = {id}"))
+        .replace(Span::new(span.end, span.end), format!(", PART = {id}"));
     builder.references.push(Reference {
         target: Target::Part,
         id,

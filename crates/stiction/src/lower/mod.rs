@@ -216,15 +216,9 @@ impl Lowering<'_> {
     ) {
         // A variable that several functions read is gone through for each of them.
         if self.told.insert((span.start, span.end, message.clone())) {
-            self.diagnostics.push(Diagnostic {
-                code,
-                severity,
-                message,
-                source: self.source.to_owned(),
-                span,
-                notes: Vec::new(),
-                help: help.map(str::to_owned),
-            });
+            let mut diagnostic = Diagnostic::new(severity, code, self.source, span, message);
+            diagnostic.help = help.map(str::to_owned);
+            self.diagnostics.push(diagnostic);
         }
     }
 }

@@ -49,7 +49,7 @@ SIMULATE/DYNAMIC, DURATION=0.5, STEPS=5
 ";
     let project = with_commands(BLOCK, commands).unwrap();
     let session = Session::new(&project).unwrap();
-    let warnings: String = session.warnings().iter().map(|w| w.text.clone()).collect();
+    let warnings: String = session.warnings().iter().map(|w| w.to_string()).collect();
     assert!(
         warnings.contains("run.acf:12:1: warning[deactivated]: FRICTION/7 rests with its JOINT/1"),
         "{warnings}"

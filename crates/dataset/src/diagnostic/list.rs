@@ -1,0 +1,86 @@
+//! The messages about one source while it is read.
+
+use super::{Code, Diagnostic, Severity};
+use crate::source::{Source, Span};
+
+/// The messages about one source, up to a limit.
+pub(crate) struct Diagnostics<'a> {
+    pub(crate) source: &'a Source,
+    list: Vec<Diagnostic>,
+    /// The last message over the limit.
+    overflow: Option<Box<Diagnostic>>,
+    dropped: usize,
+    dropped_errors: usize,
+}
+
+/// More messages than this help nobody and would fill the memory.
+const MOST: usize = 10_000;
+
+impl<'a> Diagnostics<'a> {
+    pub(crate) fn new(source: &'a Source) -> Self {
+        Self {
+            source,
+            list: Vec::new(),
+            overflow: None,
+            dropped: 0,
+            dropped_errors: 0,
+        }
+    }
+
+    pub(crate) fn error(
+        &mut self,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        self.add(Severity::Error, code, span, message.into())
+    }
+
+    pub(crate) fn warning(
+        &mut self,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        self.add(Severity::Warning, code, span, message.into())
+    }
+
+    fn add(
+        &mut self,
+        severity: Severity,
+        code: Code,
+        span: Span,
+        message: String,
+    ) -> &mut Diagnostic {
+        let diagnostic = Diagnostic::new(severity, code, self.source.name(), span, message);
+        if self.list.len() < MOST {
+            self.list.push(diagnostic);
+            let last = self.list.len() - 1;
+            return &mut self.list[last];
+        }
+        self.dropped += 1;
+        self.dropped_errors += usize::from(severity == Severity::Error);
+        self.overflow.insert(Box::new(diagnostic))
+    }
+
+    /// The messages in the order of their places. The last one tells how many are not shown.
+    pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
+        self.list.sort_by_key(|diagnostic| diagnostic.span.start);
+        if let Some(mut last) = self.overflow {
+            last.code = Code::TooMany;
+            last.severity = match self.dropped_errors {
+                0 => Severity::Warning,
+                _ => Severity::Error,
+            };
+            last.message = format!(
+                "{} more messages are not shown, {} of them errors",
+                self.dropped, self.dropped_errors
+            );
+            last.notes.clear();
+            last.help = None;
+            last.replacement = None;
+            self.list.push(*last);
+        }
+        self.list
+    }
+}
