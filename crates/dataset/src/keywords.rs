@@ -3,6 +3,7 @@
 use crate::expression::Expression;
 use crate::names::Name;
 use crate::source::Span;
+use std::ops::Range;
 
 /// What the value of an argument looks like, or why there is none.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +74,11 @@ pub(crate) struct Argument {
     pub(crate) keyword: &'static str,
     /// The keyword.
     pub(crate) span: Span,
-    /// The value, or the keyword of a flag.
+    /// The value, or the keyword where there is none.
     pub(crate) value_span: Span,
-    pub(crate) value: Value,
+    /// The positions of keyword and value among the items of the statement.
+    #[expect(dead_code, reason = "what lays statements out comes next")]
+    pub(crate) items: Range<usize>,
+    /// `None` where it is wrong or without effect, which has been reported.
+    pub(crate) value: Option<Value>,
 }

@@ -25,7 +25,6 @@ pub(crate) struct Reading<'a, 's> {
     pub(crate) items: &'a [Item],
     pub(crate) diagnostics: &'a mut Diagnostics<'s>,
     arguments: Vec<Argument>,
-    unread: Vec<&'static str>,
 }
 
 /// Name, place and identifier of a statement.
@@ -45,10 +44,9 @@ impl<'a, 's> Reading<'a, 's> {
         keywords: Option<&[Keyword]>,
         diagnostics: &'a mut Diagnostics<'s>,
     ) -> Self {
-        let (arguments, unread) = match keywords {
-            Some(keywords) => arguments::read(items, 0, head.name, keywords, diagnostics),
-            None => (Vec::new(), Vec::new()),
-        };
+        let arguments = keywords.map_or_else(Vec::new, |keywords| {
+            arguments::read(items, head.name, keywords, diagnostics)
+        });
         Self {
             name: head.name,
             span: head.span,
@@ -58,7 +56,6 @@ impl<'a, 's> Reading<'a, 's> {
             items,
             diagnostics,
             arguments,
-            unread,
         }
     }
 
@@ -84,9 +81,15 @@ impl<'a, 's> Reading<'a, 's> {
             .find(|argument| argument.keyword == keyword)
     }
 
+    fn value(&self, keyword: &str) -> Option<&Value> {
+        let given = |argument: &&Argument| argument.keyword == keyword;
+        let mut arguments = self.arguments.iter().filter(given);
+        arguments.find_map(|argument| argument.value.as_ref())
+    }
+
     /// Whether the argument is there, be it read, refused or without effect.
     pub(crate) fn has(&self, keyword: &str) -> bool {
-        self.argument(keyword).is_some() || self.unread.contains(&keyword)
+        self.argument(keyword).is_some()
     }
 
     /// Whether there is no argument at all.
@@ -119,7 +122,7 @@ impl<'a, 's> Reading<'a, 's> {
 
     /// A number.
     pub(crate) fn real(&self, keyword: &str) -> Option<f64> {
-        match &self.argument(keyword)?.value {
+        match self.value(keyword)? {
             Value::Reals(values) => values.first().map(|(value, _)| *value),
             _ => None,
         }
@@ -147,7 +150,7 @@ impl<'a, 's> Reading<'a, 's> {
 
     /// Numbers with their places.
     pub(crate) fn reals(&self, keyword: &str) -> &[(f64, Span)] {
-        match self.argument(keyword).map(|argument| &argument.value) {
+        match self.value(keyword) {
             Some(Value::Reals(values)) => values,
             _ => &[],
         }
@@ -188,7 +191,7 @@ impl<'a, 's> Reading<'a, 's> {
 
     /// Whole numbers with their places.
     pub(crate) fn ids(&self, keyword: &str) -> &[(u32, Span)] {
-        match self.argument(keyword).map(|argument| &argument.value) {
+        match self.value(keyword) {
             Some(Value::Integers(values)) => values,
             _ => &[],
         }
@@ -196,7 +199,7 @@ impl<'a, 's> Reading<'a, 's> {
 
     /// A text.
     pub(crate) fn text(&self, keyword: &str) -> Option<String> {
-        match &self.argument(keyword)?.value {
+        match self.value(keyword)? {
             Value::Text(text) => Some(text.clone()),
             _ => None,
         }
@@ -204,7 +207,7 @@ impl<'a, 's> Reading<'a, 's> {
 
     /// Texts.
     pub(crate) fn strings(&self, keyword: &str) -> Vec<String> {
-        match self.argument(keyword).map(|argument| &argument.value) {
+        match self.value(keyword) {
             Some(Value::Strings(texts)) => texts.clone(),
             _ => Vec::new(),
         }
@@ -212,7 +215,7 @@ impl<'a, 's> Reading<'a, 's> {
 
     /// An expression.
     pub(crate) fn expression(&self, keyword: &str) -> Option<Expression> {
-        match &self.argument(keyword)?.value {
+        match self.value(keyword)? {
             Value::Expression(expression) => Some(expression.clone()),
             _ => None,
         }
@@ -234,7 +237,7 @@ impl<'a, 's> Reading<'a, 's> {
         keyword: &'static str,
         choices: &[(&'static str, T)],
     ) -> Option<Vec<T>> {
-        let Value::Words(words) = &self.argument(keyword)?.value else {
+        let Value::Words(words) = self.value(keyword)? else {
             return None;
         };
         let words = words.clone();

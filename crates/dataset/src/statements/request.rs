@@ -1,6 +1,7 @@
 //! REQUEST, GRAPHICS, OUTPUT and RESULTS: what is reported and drawn.
 
 use super::{Builder, Target, add};
+use crate::arguments::free;
 use crate::diagnostic::Code;
 use crate::expression::Expression;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
@@ -118,31 +119,15 @@ pub(super) fn graphics(reading: &mut Reading, builder: &mut Builder) {
     let source = reading.diagnostics.source;
     let mut kind = String::new();
     let mut arguments = Vec::new();
-    let mut at = 0;
-    while at < reading.items.len() {
-        if reading.items[at].kind() != TokenKind::Word {
-            at += 1;
-            continue;
-        }
-        let name = source.slice(reading.items[at].span()).to_ascii_uppercase();
-        at += 1;
-        let first = at;
-        while at < reading.items.len() {
-            let next = reading.items.get(at + 1).map(|item| item.kind());
-            let ends = reading.items[at].kind() == TokenKind::Comma;
-            if ends && next == Some(TokenKind::Word) {
-                break;
-            }
-            at += 1;
-        }
-        let value = &reading.items[first..at];
+    for argument in free(source, reading.items) {
+        let value = &reading.items[argument.rest()];
         match value.first().map(|item| item.kind()) {
-            None if kind.is_empty() => kind = name,
-            None => arguments.push((name, String::new())),
-            Some(TokenKind::Equals) => arguments.push((name, join(source, &value[1..]))),
+            None if kind.is_empty() => kind = argument.name,
+            None => arguments.push((argument.name, String::new())),
+            Some(TokenKind::Equals) => arguments.push((argument.name, join(source, &value[1..]))),
             Some(_) => {
                 let span = value[0].span();
-                let message = format!("expected `=` or `,` behind {name}");
+                let message = format!("expected `=` or `,` behind {}", argument.name);
                 reading.diagnostics.error(Code::Syntax, span, message);
             }
         }
