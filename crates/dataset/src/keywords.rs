@@ -14,6 +14,8 @@ pub(crate) enum Kind {
     Real,
     /// Between so many and so many numbers.
     Reals(usize, usize),
+    /// Numbers; the argument may be given several times.
+    RealsEach,
     /// A whole number.
     Integer,
     /// A positive whole number.

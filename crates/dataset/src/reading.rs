@@ -156,6 +156,17 @@ impl<'a, 's> Reading<'a, 's> {
         }
     }
 
+    /// Numbers with their places, for each time that the argument is given.
+    pub(crate) fn reals_each(&self, keyword: &str) -> Vec<Vec<(f64, Span)>> {
+        let given = self.arguments.iter().filter(|a| a.keyword == keyword);
+        given
+            .filter_map(|argument| match &argument.value {
+                Some(Value::Reals(values)) => Some(values.clone()),
+                _ => None,
+            })
+            .collect()
+    }
+
     /// Three numbers.
     pub(crate) fn vector(&self, keyword: &str) -> Option<[f64; 3]> {
         match self.reals(keyword) {

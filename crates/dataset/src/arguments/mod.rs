@@ -174,8 +174,9 @@ impl Parser<'_, '_> {
             }
             _ => {}
         }
+        let once = !matches!(keyword.kind, Kind::RealsEach);
         let mut before = self.arguments.iter();
-        if before.any(|argument| argument.keyword == full && argument.value.is_some()) {
+        if once && before.any(|argument| argument.keyword == full && argument.value.is_some()) {
             let message = format!("{full} is given twice");
             self.diagnostics
                 .error(Code::DuplicateArgument, span, message);

@@ -39,6 +39,7 @@ impl Parser<'_, '_> {
         match kind {
             Kind::Real => self.reals(name, 1, 1),
             Kind::Reals(least, most) => self.reals(name, least, most),
+            Kind::RealsEach => self.reals(name, 1, usize::MAX),
             Kind::Integer => self.integers(name, 0, true),
             Kind::Id => self.integers(name, 1, true),
             Kind::Ids => self.integers(name, 1, false),

@@ -183,7 +183,7 @@ fn report(dataset: &Dataset, missing: Vec<Missing>, diagnostics: &mut Diagnostic
 /// Elements that a dataset cannot hold count as present: their functions are refused later.
 fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
     let element = match kind {
-        ArgumentKind::Real | ArgumentKind::Integer => return true,
+        ArgumentKind::Real | ArgumentKind::Integer | ArgumentKind::Order => return true,
         ArgumentKind::MarkerOrGround if id == 0 => return true,
         ArgumentKind::Marker | ArgumentKind::MarkerOrGround => {
             return dataset.markers.position(id).is_some();
@@ -202,6 +202,7 @@ fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
         ElementKind::Bushing => dataset.bushings.position(id),
         ElementKind::Field => dataset.fields.position(id),
         ElementKind::Beam => dataset.beams.position(id),
+        ElementKind::Spline => dataset.splines.position(id),
         ElementKind::Variable => dataset.variables.position(id),
         ElementKind::Friction => dataset.frictions.position(id),
         ElementKind::PlantInput => dataset.plant_inputs.position(id),
@@ -224,6 +225,7 @@ const fn statement(element: ElementKind) -> &'static str {
         ElementKind::Bushing => "BUSHING",
         ElementKind::Field => "FIELD",
         ElementKind::Beam => "BEAM",
+        ElementKind::Spline => "SPLINE",
         ElementKind::Variable => "VARIABLE",
         ElementKind::Friction => "FRICTION",
         ElementKind::PlantInput => "PINPUT",

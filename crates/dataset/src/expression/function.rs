@@ -25,6 +25,8 @@ pub enum ElementKind {
     Field,
     /// BEAM.
     Beam,
+    /// SPLINE.
+    Spline,
     /// VARIABLE.
     Variable,
     /// FRICTION.
@@ -44,6 +46,8 @@ pub enum ArgumentKind {
     Real,
     /// A whole number.
     Integer,
+    /// The order of a derivative: 0, 1 or 2.
+    Order,
     /// The id of a marker.
     Marker,
     /// The id of a marker, or 0 for the ground.
@@ -52,7 +56,7 @@ pub enum ArgumentKind {
     Element(ElementKind),
 }
 
-use ArgumentKind::{Element, Integer, Marker, MarkerOrGround, Real};
+use ArgumentKind::{Element, Integer, Marker, MarkerOrGround, Order, Real};
 use ElementKind as E;
 
 macro_rules! functions {
@@ -233,11 +237,11 @@ functions! {
     Forsin "FORSIN" 4 [Real] 34;
     Shf "SHF" 5 [Real] 6;
     Sweep "SWEEP" 7 [Real] 7;
-    Invpsd "INVPSD" 7 [Real, Element(E::Other), Real] 7;
-    Cubspl "CUBSPL" 3 [Real, Real, Element(E::Other), Integer] 4;
-    Akispl "AKISPL" 3 [Real, Real, Element(E::Other), Integer] 4;
-    Interp "INTERP" 4 [Real, Integer, Element(E::Other), Integer] 4;
-    Curve "CURVE" 4 [Real, Integer, Integer, Element(E::Other)] 4;
+    Invpsd "INVPSD" 7 [Real, Element(E::Spline), Real] 7;
+    Cubspl "CUBSPL" 3 [Real, Real, Element(E::Spline), Order] 4;
+    Akispl "AKISPL" 3 [Real, Real, Element(E::Spline), Order] 4;
+    Interp "INTERP" 3 [Real, Integer, Element(E::Spline), Order] 4;
+    Curve "CURVE" 4 [Real, Order, Integer, Element(E::Other)] 4;
     Delay "DELAY" 3 [Real] 3;
     // A subroutine of the user.
     User "USER" 0 [Real] 30;

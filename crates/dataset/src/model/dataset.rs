@@ -4,7 +4,7 @@ use super::{
     Beam, Bushing, Coupler, Elements, Equilibrium, Field, Friction, Gear, GeneralConstraint,
     Graphics, InitialConditions, Integrator, Joint, JointPrimitive, Kinematics, Marker, Motion,
     OutputOptions, Part, PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor,
-    SingleForce, SpringDamper, Switchable, Units, Variable, VectorForce,
+    SingleForce, Spline, SpringDamper, Switchable, Units, Variable, VectorForce,
 };
 use std::collections::BTreeSet;
 
@@ -55,6 +55,8 @@ pub struct Dataset {
     pub fields: Elements<Field>,
     /// BEAM.
     pub beams: Elements<Beam>,
+    /// SPLINE.
+    pub splines: Elements<Spline>,
     /// VARIABLE.
     pub variables: Elements<Variable>,
     /// PINPUT.

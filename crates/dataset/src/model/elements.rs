@@ -117,4 +117,5 @@ elements!(
     super::Sensor,
     super::Graphics,
     super::Friction,
+    super::Spline,
 );

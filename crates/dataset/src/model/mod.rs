@@ -17,6 +17,7 @@ mod part;
 mod request;
 mod sensor;
 mod settings;
+mod spline;
 mod units;
 mod variable;
 mod vector_force;
@@ -47,6 +48,7 @@ pub use settings::{
     Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
     Kinematics, OutputOptions, Preferences, ResultsOptions,
 };
+pub use spline::{Spline, SplineCurve};
 pub use units::{ForceUnit, LengthUnit, MassUnit, TimeUnit, Units};
 pub use variable::{PlantPort, Variable};
 pub use vector_force::VectorForce;

@@ -10,6 +10,7 @@ mod part;
 mod request;
 mod sensor;
 mod settings;
+mod spline;
 mod table;
 mod units;
 mod variable;

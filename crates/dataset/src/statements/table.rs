@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::{
-    coupler, elastic, force, friction, joint, motion, part, request, sensor, settings, units,
-    variable, vector_force,
+    coupler, elastic, force, friction, joint, motion, part, request, sensor, settings, spline,
+    units, variable, vector_force,
 };
 use crate::keywords::Keyword;
 use crate::names::Name;
@@ -119,6 +119,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     read("BUSHING", "BU", elastic::BUSHING_KEYWORDS, elastic::bushing),
     read("FIELD", "FI", elastic::FIELD_KEYWORDS, elastic::field),
     read("BEAM", "BE", elastic::BEAM_KEYWORDS, elastic::beam),
+    read("SPLINE", "SPL", spline::KEYWORDS, spline::spline),
     read("VARIABLE", "VAR", variable::KEYWORDS, variable::variable),
     read(
         "PINPUT",
@@ -183,7 +184,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     ignored("ARRAY", DATA),
     ignored("CURVE", DATA),
     ignored("MATRIX", DATA),
-    ignored("SPLINE", DATA),
     ignored("STRING", DATA),
     ignored("SURFACE", DATA),
     ignored("MATERIAL", "rigid parts give their own mass and inertia"),

@@ -1,6 +1,8 @@
 //! Every argument of the forces of several components and of couplings, in full and abbreviated.
 
-use dataset::{BeamDamping, CoupledFreedom, Dataset, Expr, Source, read_dataset};
+use dataset::{BeamDamping, CoupledFreedom, Expr};
+
+use crate::shared::model;
 
 const PARTS: &str = "title
 PART/1, GROUND
@@ -11,15 +13,6 @@ MARKER/20, PART=2
 JOINT/1, REVOLUTE, I=20, J=1
 JOINT/2, CYLINDRICAL, I=20, J=1
 ";
-
-/// The dataset of a text in which nothing is wrong.
-fn model(text: &str) -> Dataset {
-    let source = Source::from_text("test.adm", text.to_string());
-    let (dataset, diagnostics) = read_dataset(&source);
-    let rendered = diagnostics.iter().map(|found| found.render(&source));
-    assert_eq!(rendered.collect::<String>(), "");
-    dataset
-}
 
 #[test]
 fn components_of_vector_forces_have_their_places() {

@@ -10,3 +10,4 @@ mod language;
 mod misuse;
 mod mutations;
 mod shared;
+mod splines;

@@ -1,6 +1,6 @@
 //! Files of the reference data, and diagnostics with the text that they mark.
 
-use dataset::{Code, Diagnostic, Severity, Source};
+use dataset::{Code, Dataset, Diagnostic, Severity, Source, read_dataset};
 use std::path::{Path, PathBuf};
 
 /// The datasets and command files in a folder and below, in the order of their names.
@@ -41,4 +41,13 @@ pub(crate) fn marked(diagnostic: &Diagnostic, source: &Source) -> Marked {
         text: source.text()[span.start..span.end].to_string(),
         message: diagnostic.message.clone(),
     }
+}
+
+/// The dataset of a text in which nothing is wrong.
+pub(crate) fn model(text: &str) -> Dataset {
+    let source = Source::from_text("test.adm", text.to_string());
+    let (dataset, diagnostics) = read_dataset(&source);
+    let rendered = diagnostics.iter().map(|found| found.render(&source));
+    assert_eq!(rendered.collect::<String>(), "");
+    dataset
 }

@@ -8,6 +8,10 @@
 
 mod functions;
 
+use std::sync::Arc;
+
+use numerics::interpolation::Surface;
+
 use crate::scalar::Scalar;
 pub use functions::{Binary, Unary};
 use functions::{binary, binary_slopes, unary};
@@ -40,6 +44,8 @@ pub enum Operation {
     Binary(Binary, Register, Register),
     /// IF: the first register decides between the other three (negative, zero, positive).
     Select(Register, Register, Register, Register),
+    /// A derivative by x of a table of the program at `(x, z)`: table, order, x, z.
+    Lookup(usize, usize, Register, Register),
 }
 
 /// A compiled function; its value is that of the last operation.
@@ -56,6 +62,7 @@ pub enum Operation {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     operations: Vec<Operation>,
+    tables: Vec<Arc<Surface>>,
 }
 
 impl Program {
@@ -64,6 +71,7 @@ impl Program {
     pub fn constant(value: f64) -> Self {
         Self {
             operations: vec![Operation::Constant(value)],
+            tables: Vec::new(),
         }
     }
 
@@ -78,10 +86,32 @@ impl Program {
             Operation::Unary(_, a) => a < new,
             Operation::Binary(_, a, b) => a.max(b) < new,
             Operation::Select(a, b, c, d) => a.max(b).max(c.max(d)) < new,
+            Operation::Lookup(table, order, x, z) => {
+                x.max(z) < new && table < self.tables.len() && order <= 2
+            }
         };
         assert!(before, "an operation reads registers before it");
         self.operations.push(operation);
         new
+    }
+
+    /// Appends the `order`-th derivative by x (0, 1 or 2) of a table at `(x, z)`.
+    ///
+    /// # Panics
+    /// As [`Program::push`], or for a higher order.
+    pub fn push_lookup(
+        &mut self,
+        table: &Arc<Surface>,
+        order: usize,
+        x: Register,
+        z: Register,
+    ) -> Register {
+        let known = self.tables.iter().position(|t| Arc::ptr_eq(t, table));
+        let place = known.unwrap_or_else(|| {
+            self.tables.push(Arc::clone(table));
+            self.tables.len() - 1
+        });
+        self.push(Operation::Lookup(place, order, x, z))
     }
 
     /// Number of operations, which is the number of registers that an evaluation needs.
@@ -125,6 +155,9 @@ impl Program {
                 Operation::Select(a, negative, zero, positive) => {
                     at(select(at(a).value(), negative, zero, positive))
                 }
+                Operation::Lookup(table, order, x, z) => {
+                    lookup(&self.tables[table], order, at(x), at(z))
+                }
             };
         }
         registers[self.operations.len() - 1]
@@ -167,9 +200,23 @@ impl Program {
                 Operation::Select(a, negative, zero, positive) => {
                     adjoints[select(at(a), negative, zero, positive) as usize] += adjoint;
                 }
+                Operation::Lookup(table, order, x, z) => {
+                    let point = self.tables[table].at(order, at(x), at(z));
+                    adjoints[x as usize] += adjoint * point.by_x;
+                    adjoints[z as usize] += adjoint * point.by_z;
+                }
             }
         }
     }
+}
+
+/// Taylor's expansion at the point, which is exact for numbers that carry two derivatives.
+fn lookup<T: Scalar>(table: &Surface, order: usize, x: T, z: T) -> T {
+    let point = table.at(order, x.value(), z.value());
+    let (dx, dz) = (x - T::constant(x.value()), z - T::constant(z.value()));
+    let constant = T::constant;
+    let bend = constant(0.5 * point.by_xx) * dx + constant(point.by_xz) * dz;
+    constant(point.value) + dx * (constant(point.by_x) + bend) + dz * constant(point.by_z)
 }
 
 fn select(x: f64, negative: Register, zero: Register, positive: Register) -> Register {
@@ -185,6 +232,7 @@ fn select(x: f64, negative: Register, zero: Register, positive: Register) -> Reg
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scalar::Jet;
 
     #[test]
     fn a_branch_not_taken_leaves_no_trace() {
@@ -202,5 +250,50 @@ mod tests {
             calls += 1;
         });
         assert_eq!(calls, 1);
+    }
+
+    #[test]
+    fn lookups_have_exact_slopes_and_jets() {
+        use numerics::interpolation::{Extrapolation, PiecewiseCubic};
+        let x = [0.0, 1.0, 2.0, 4.0];
+        let curve = |y: [f64; 4]| PiecewiseCubic::cubic_spline(&x, &y, Extrapolation::Line);
+        let family = vec![
+            (0.0, curve([1.0, -1.0, 2.0, 3.0])),
+            (1.0, curve([0.0, 2.0, 2.0, -1.0])),
+        ];
+        let table = Arc::new(Surface::new(family));
+        for order in 0..=2 {
+            let mut program = Program::default();
+            let x = program.push(Operation::Input(Input::Measure(0)));
+            let z = program.push(Operation::Input(Input::Measure(1)));
+            program.push_lookup(&table, order, x, z);
+            // Along x = 1.3 + 2t - t², z = 0.3 + t + t².
+            let at = |input, t: f64| match input {
+                Input::Measure(0) => Jet {
+                    value: 1.3 + 2.0 * t - t * t,
+                    rate: 2.0 - 2.0 * t,
+                    acceleration: -2.0,
+                },
+                _ => Jet {
+                    value: 0.3 + t + t * t,
+                    rate: 1.0 + 2.0 * t,
+                    acceleration: 2.0,
+                },
+            };
+            let jet = |t: f64| program.run(&mut [Jet::constant(0.0); 3], |input| at(input, t));
+            let (now, h) = (jet(0.0), 1e-4);
+            let rate = (jet(h).value - jet(-h).value) / (2.0 * h);
+            let acceleration = (jet(h).rate - jet(-h).rate) / (2.0 * h);
+            // Truncation h²/6 times third derivatives of up to a hundred.
+            assert!((now.rate - rate).abs() < 1e-6, "{order}");
+            assert!((now.acceleration - acceleration).abs() < 1e-5, "{order}");
+            let mut registers = [0.0; 3];
+            program.evaluate(&mut registers, |input| at(input, 0.0).value);
+            let mut along = 0.0;
+            program.gradient(&registers, &mut [0.0; 3], |input, slope| {
+                along += slope * at(input, 0.0).rate;
+            });
+            assert!((along - now.rate).abs() < 1e-13 * (1.0 + now.rate.abs()));
+        }
     }
 }

@@ -2,6 +2,9 @@
 
 mod akima;
 mod cubic;
+mod surface;
+
+pub use surface::{Surface, SurfacePoint};
 
 /// A piecewise cubic with its extrapolation on both sides.
 ///

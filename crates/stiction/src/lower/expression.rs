@@ -185,6 +185,9 @@ impl Compiler {
             }
             return Ok(self.result(lowering, source));
         }
+        if let Function::Akispl | Function::Cubspl = function {
+            return self.interpolation(lowering, function, arguments);
+        }
         let of_numbers =
             (0..arguments.len()).all(|k| function.argument_kind(k) == ArgumentKind::Real);
         if !of_numbers {
@@ -196,6 +199,23 @@ impl Compiler {
         }
         self.mathematics(function, &values)
             .ok_or_else(|| self.refuse_function(lowering, call))
+    }
+
+    /// `AKISPL(x, z, spline, order)` and CUBSPL; the order is zero where it is left out.
+    fn interpolation(
+        &mut self,
+        lowering: &mut Lowering,
+        function: Function,
+        arguments: &[Expr],
+    ) -> Result<Register, Refused> {
+        let number = |k: usize| arguments.get(k).and_then(Expr::as_id);
+        // The checks of the dataset have reported a spline that is not there.
+        let spline = number(2).and_then(|id| lowering.table(function, id));
+        let table = spline.ok_or(Refused)?;
+        let x = self.expr(lowering, &arguments[0])?;
+        let z = self.expr(lowering, &arguments[1])?;
+        let order = number(3).unwrap_or(0) as usize;
+        Ok(self.program.push_lookup(&table, order, x, z))
     }
 
     /// A value that is known only once an instant has been solved.

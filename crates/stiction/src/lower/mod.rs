@@ -20,6 +20,7 @@ mod motions;
 mod outputs;
 mod pose;
 mod results;
+mod tables;
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -95,6 +96,7 @@ pub(crate) fn lower(
         reads_mode: false,
         motions: Vec::new(),
         results: Vec::new(),
+        tables: tables::Tables::default(),
         diagnostics: Vec::new(),
         told: HashSet::new(),
     };
@@ -147,6 +149,8 @@ struct Lowering<'a> {
     motions: Vec<Option<Owner>>,
     /// Results that output functions read, by number.
     results: Vec<results::ResultSource>,
+    /// Splines as functions interpolate them.
+    tables: tables::Tables,
     diagnostics: Vec<Diagnostic>,
     /// Places and texts of the diagnostics.
     told: HashSet<(usize, usize, String)>,
