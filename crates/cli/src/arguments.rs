@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::diagnostics::LevelArguments;
+
 /// An open solver for friction in machine joints: reads Adams Solver datasets.
 #[derive(Debug, Parser)]
 #[command(name = "stiction", version, about, after_help = EXIT_CODES)]
@@ -15,7 +17,7 @@ pub(crate) struct Arguments {
 const EXIT_CODES: &str = "Exit codes:
   0    success
   2    wrong usage, or a file that cannot be written
-  3    error in the input, with file, line and column
+  3    error in the input, with file, line and column, or a warning that --deny makes one
   4    the model cannot be assembled
   5    the integration failed; the results so far are kept
   130  interrupted (Ctrl-C); the results so far are kept";
@@ -27,7 +29,8 @@ pub(crate) enum Command {
     /// Look through a model without simulating it
     ///
     /// Reads and validates the files, assembles the model, and lists its degrees of freedom,
-    /// redundant equations, frictions whose joint reaction is not unique, and the defaults in use.
+    /// redundant equations and the defaults in use. docs/diagnostics.md explains every message by
+    /// its code.
     Check(CheckArguments),
     /// Tell where the friction in a run came from
     ///
@@ -82,6 +85,8 @@ pub(crate) struct RunArguments {
     /// Write into a folder that exists already; its files of the same names are replaced
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) levels: LevelArguments,
 }
 
 /// Look through a model without simulating it.
@@ -94,6 +99,8 @@ pub(crate) struct CheckArguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
+    #[command(flatten)]
+    pub(crate) levels: LevelArguments,
 }
 
 /// Tell where the friction in a run came from.

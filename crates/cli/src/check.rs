@@ -1,48 +1,68 @@
 //! `stiction check`.
 
 use serde_json::{Value, json};
-use stiction::{CheckReport, InputError, Message, Project};
+use stiction::{CheckReport, Code, InputError, Message, Project};
 
 use crate::arguments::{CheckArguments, Format};
+use crate::diagnostics::{VERSION, counts, messages_json};
 use crate::exit::{Exit, complain, say};
 
 /// Loads, assembles and reports.
 pub(crate) fn check(arguments: &CheckArguments) -> Exit {
-    let checked = Project::load(&arguments.model).and_then(|project| stiction::check(&project));
+    let levels = match arguments.levels.levels() {
+        Ok(levels) => levels,
+        Err(error) => {
+            complain(&format!("error: {error}\n"));
+            return Exit::Usage;
+        }
+    };
+    let loaded = Project::load_with(&arguments.model, levels);
+    let checked = loaded.and_then(|project| stiction::check(&project));
     match (checked, arguments.format) {
         (Ok(report), Format::Text) => {
-            say(&report.to_string());
-            exit_of(&report)
+            say(&format!("{report}{}\n", counts(&report.messages)));
+            exit_of(&report.messages)
+        }
+        (Err(InputError { messages }), Format::Text) => {
+            for message in &messages {
+                complain(&message.to_string());
+            }
+            complain(&format!("{}\n", counts(&messages)));
+            Exit::Input
         }
         (Ok(report), Format::Json) => {
-            say(&format!("{:#}\n", report_json(&report)));
-            exit_of(&report)
-        }
-        (Err(error), Format::Text) => {
-            complain(&error.to_string());
-            Exit::Input
+            say_json(&report.messages, Some(model_json(&report)));
+            exit_of(&report.messages)
         }
         (Err(InputError { messages }), Format::Json) => {
-            say(&format!(
-                "{:#}\n",
-                json!({ "messages": messages_json(&messages) })
-            ));
+            say_json(&messages, None);
             Exit::Input
         }
     }
 }
 
-fn exit_of(report: &CheckReport) -> Exit {
-    if report.messages.iter().any(Message::is_error) {
-        Exit::Input
-    } else if report.assembly_error.is_some() {
-        Exit::Assembly
-    } else {
-        Exit::Success
+/// Errors of the input come before those of assembly.
+fn exit_of(messages: &[Message]) -> Exit {
+    let errors = messages.iter().filter(|message| message.is_error());
+    let of_assembly = |message: &Message| message.diagnostic.code == Code::Assembly;
+    let (assembly, input): (Vec<_>, Vec<_>) = errors.partition(|m| of_assembly(m));
+    match (input.is_empty(), assembly.is_empty()) {
+        (false, _) => Exit::Input,
+        (true, false) => Exit::Assembly,
+        (true, true) => Exit::Success,
     }
 }
 
-fn report_json(report: &CheckReport) -> Value {
+fn say_json(messages: &[Message], model: Option<Value>) {
+    let value = json!({
+        "version": VERSION,
+        "diagnostics": messages_json(messages),
+        "model": model,
+    });
+    say(&format!("{value:#}\n"));
+}
+
+fn model_json(report: &CheckReport) -> Value {
     let elements: serde_json::Map<String, Value> = report
         .elements
         .iter()
@@ -77,28 +97,7 @@ fn report_json(report: &CheckReport) -> Value {
         "elements": elements,
         "degrees_of_freedom": report.degrees_of_freedom,
         "redundant_equations": redundancies.collect::<Vec<_>>(),
-        "frictions_not_unique": report.not_unique,
         "moved": moved.collect::<Vec<_>>(),
         "friction_defaults": defaults.collect::<Vec<_>>(),
-        "assembly_error": report.assembly_error.as_ref().map(message_json),
-        "messages": messages_json(&report.messages),
-    })
-}
-
-fn messages_json(messages: &[Message]) -> Vec<Value> {
-    messages.iter().map(message_json).collect()
-}
-
-fn message_json(message: &Message) -> Value {
-    let diagnostic = &message.diagnostic;
-    json!({
-        "severity": diagnostic.severity.as_str(),
-        "code": diagnostic.code.as_str(),
-        "message": diagnostic.message,
-        "file": diagnostic.source,
-        "line": message.location.start.line,
-        "column": message.location.start.column,
-        "notes": diagnostic.notes,
-        "help": diagnostic.help,
     })
 }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod check;
+mod diagnostics;
 mod exit;
 mod explain;
 mod progress;

@@ -6,14 +6,30 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use stiction::{EnergyBalance, EnergyTerm, FrictionReport, Outcome, Project, RunReport};
+use stiction::{
+    EnergyBalance, EnergyTerm, FrictionReport, Message, Outcome, Project, RunReport, Severity,
+};
 
 use crate::arguments::RunArguments;
+use crate::diagnostics::messages_json;
 use crate::exit::Exit;
 
-/// The exit status of an outcome.
-pub(crate) fn exit_of(outcome: &Outcome) -> Exit {
-    match outcome {
+/// What a run warns of, and what is denied of that; the error that ended it is not among them.
+pub(crate) fn beside_the_outcome(report: &RunReport) -> impl Iterator<Item = &Message> {
+    let completed = report.outcome == Outcome::Completed;
+    let messages = report.messages.iter();
+    messages.filter(move |message| match message.diagnostic.severity {
+        Severity::Error => completed,
+        Severity::Warning => true,
+        Severity::Note => false,
+    })
+}
+
+/// The exit status of a run.
+pub(crate) fn exit_of(report: &RunReport) -> Exit {
+    match report.outcome {
+        // Nothing but a warning that is denied can be wrong with it.
+        Outcome::Completed if report.messages.iter().any(Message::is_error) => Exit::Input,
         Outcome::Completed => Exit::Success,
         Outcome::Interrupted => Exit::Interrupted,
         Outcome::Refused(_) => Exit::Input,
@@ -66,6 +82,7 @@ pub(crate) fn write(
     folder: &Path,
     inputs: &[Value],
     arguments: &RunArguments,
+    warnings: &[Message],
     report: &RunReport,
 ) -> io::Result<()> {
     let (outcome, message) = words(&report.outcome);
@@ -85,11 +102,12 @@ pub(crate) fn write(
         },
         "outcome": outcome,
         "message": message,
-        "exit_code": exit_of(&report.outcome).code(),
+        "exit_code": exit_of(report).code(),
         "time": report.time,
         "simulations": report.simulations,
         "outputs": report.outputs,
         "warnings": report.warnings,
+        "diagnostics": messages_json(warnings.iter().chain(&report.messages)),
         "timing": {
             "finished_unix_seconds": now.map(|now| now.as_secs()).ok(),
             "elapsed_seconds": report.elapsed,
@@ -128,7 +146,7 @@ fn balance_json(balance: &EnergyBalance) -> Value {
 fn friction_json(report: &FrictionReport) -> Value {
     let tally = &report.tally;
     json!({
-        "friction": report.friction,
+        "friction": report.friction.to_string(),
         "joint": report.joint,
         "peak": { "value": report.peak, "unit": report.unit, "time": report.peak_time },
         "outputs": { "stuck": report.regimes[0], "transition": report.regimes[1],

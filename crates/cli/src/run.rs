@@ -30,7 +30,9 @@ fn usage(text: &str) -> Failure {
 fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     check_numbers(arguments)?;
     let input = |error: stiction::InputError| Failure(Exit::Input, error.to_string());
-    let mut project = Project::load(&arguments.model).map_err(input)?;
+    let levels = arguments.levels.levels();
+    let levels = levels.map_err(|error| usage(&error.to_string()))?;
+    let mut project = Project::load_with(&arguments.model, levels).map_err(input)?;
     for change in &arguments.changes {
         let statement = statement(change).ok_or_else(|| {
             usage(&format!(
@@ -55,14 +57,15 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let ran = session.run(&folder, options, &mut monitor);
     monitor.finish();
     let report = ran.map_err(|error| Failure(Exit::Usage, format!("error: {error}\n")))?;
-    record::write(&folder, &inputs, arguments, &report).map_err(|error| {
+    let warnings = session.warnings();
+    record::write(&folder, &inputs, arguments, warnings, &report).map_err(|error| {
         usage(&format!(
             "cannot write {}: {error}",
             folder.join("run.json").display()
         ))
     })?;
     tell(&folder, &report);
-    Ok(record::exit_of(&report.outcome))
+    Ok(record::exit_of(&report))
 }
 
 fn check_numbers(arguments: &RunArguments) -> Result<(), Failure> {
@@ -128,6 +131,9 @@ fn tell(folder: &Path, report: &RunReport) {
         text += &format!(" {name}");
     }
     text += " run.json\n";
+    for warning in record::beside_the_outcome(report) {
+        text += &warning.to_string();
+    }
     let table = friction_table(&report.frictions);
     if !table.is_empty() {
         text += &format!("\n{table}");

@@ -312,18 +312,90 @@ fn check_tells_freedoms_and_redundancies_as_json() {
     let output = stiction(&folder, &["check", "twice.adm", "--format", "json"]);
     assert_eq!(code(&output), 0, "{}", errors(&output));
     let report = json(&output.stdout);
-    assert_eq!(report["degrees_of_freedom"], 1);
-    assert_eq!(report["redundant_equations"].as_array().unwrap().len(), 5);
-    assert_eq!(report["frictions_not_unique"].as_array().unwrap().len(), 1);
-    assert_eq!(report["elements"]["JOINT"], 2);
+    assert_eq!(report["version"], 1);
+    let model = &report["model"];
+    assert_eq!(model["degrees_of_freedom"], 1);
+    assert_eq!(model["redundant_equations"].as_array().unwrap().len(), 5);
+    let codes: Vec<_> = report["diagnostics"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|d| d["code"].as_str().unwrap())
+        .collect();
     assert_eq!(
-        report["friction_defaults"][0]["defaults"]["FRICTION_ARM"],
+        codes
+            .iter()
+            .filter(|code| **code == "reaction-not-unique")
+            .count(),
+        1,
+        "{codes:?}"
+    );
+    assert_eq!(model["elements"]["JOINT"], 2);
+    assert_eq!(
+        model["friction_defaults"][0]["defaults"]["FRICTION_ARM"],
         1.0
     );
     assert!(!folder.join("twice-run").exists());
     let broken = stiction(&folder, &["check", "nothing.adm", "--format", "json"]);
     assert_eq!(code(&broken), 3);
-    assert_eq!(json(&broken.stdout)["messages"][0]["severity"], "error");
+    let missing = &json(&broken.stdout)["diagnostics"][0];
+    assert_eq!(
+        (&missing["severity"], &missing["code"]),
+        (&"error".into(), &"missing-file".into())
+    );
+}
+
+#[test]
+fn a_misspelt_name_comes_with_its_replacement_as_json() {
+    let text = PENDULUM.replace("MU_DYNAMIC", "MU_DYNAMC");
+    let folder = folder("replacement", &[("p.adm", text.as_str())]);
+    let output = stiction(&folder, &["check", "p.adm", "--format", "json"]);
+    let report = json(&output.stdout);
+    assert_eq!(report["model"], serde_json::Value::Null);
+    let mut diagnostics = report["diagnostics"].as_array().unwrap().iter();
+    let error = diagnostics.find(|d| d["severity"] == "error").unwrap();
+    assert_eq!(error["code"], "unknown-argument");
+    assert_eq!(error["span"]["start"]["line"], 10);
+    assert_eq!(error["replacement"]["text"], "MU_DYNAMIC");
+    // The offsets are those of the text that a program edits.
+    let offset = |end: &str| {
+        let offset = &error["replacement"]["span"][end]["offset"];
+        usize::try_from(offset.as_u64().unwrap()).unwrap()
+    };
+    assert_eq!(&text[offset("start")..offset("end")], "MU_DYNAMC");
+}
+
+#[test]
+fn warnings_are_allowed_and_denied_by_their_code() {
+    let folder = folder("levels", &[("p.adm", PENDULUM)]);
+    let check = |arguments: &[&str]| {
+        let output = stiction(&folder, &[&["check", "p.adm"], arguments].concat());
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        (code(&output), said + &errors(&output))
+    };
+    let (status, said) = check(&[]);
+    assert_eq!(status, 0);
+    assert!(said.contains("warning[dimensional-default]"), "{said}");
+    let (status, said) = check(&["--allow", "dimensional-default"]);
+    assert_eq!(status, 0);
+    assert!(!said.contains("dimensional-default"), "{said}");
+    assert!(said.contains("no errors, no warnings"), "{said}");
+    for denied in ["dimensional-default", "warnings"] {
+        let (status, said) = check(&["--deny", denied]);
+        assert_eq!(status, 3);
+        assert!(said.contains("error[dimensional-default]"), "{said}");
+    }
+    let both = ["--deny", "warnings", "--allow", "dimensional-default"];
+    assert_eq!(check(&both).0, 0);
+    let (status, said) = check(&["--deny", "dimensional-defualt"]);
+    assert_eq!(status, 2);
+    assert!(said.contains("is dimensional-default meant?"), "{said}");
+    let contradiction = ["--deny", "ignored", "--allow", "ignored"];
+    assert_eq!(check(&contradiction).0, 2);
+    let run = ["run", "p.adm", "--end", "0.1", "--deny", "warnings"];
+    let output = stiction(&folder, &run);
+    assert_eq!(code(&output), 3);
+    assert!(!folder.join("p-run").exists());
 }
 
 #[test]

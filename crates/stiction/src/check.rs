@@ -7,6 +7,7 @@ use crate::defaults::{FrictionDefaults, defaults_in_use};
 use crate::failure;
 use crate::message::{InputError, Message};
 use crate::project::Project;
+use crate::warnings;
 
 /// What can be said about a project without running it.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,16 +20,12 @@ pub struct CheckReport {
     pub degrees_of_freedom: Option<usize>,
     /// Equations that depend on others and are left out.
     pub redundancies: Vec<Redundancy>,
-    /// Frictions whose joint's reaction is not unique for that reason.
-    pub not_unique: Vec<String>,
     /// Parts that assembly moves.
     pub moved: Vec<Moved>,
     /// Arguments of FRICTION that are left at their defaults.
     pub defaults: Vec<FrictionDefaults>,
-    /// Warnings, and errors of commands that are not simulated.
+    /// Warnings, errors of commands that are not simulated, and why the model cannot be assembled.
     pub messages: Vec<Message>,
-    /// Why the model cannot be assembled.
-    pub assembly_error: Option<Message>,
 }
 
 /// Lowers and assembles a project.
@@ -42,11 +39,6 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
     messages.extend(refused_simulations(project));
     let dataset = project.dataset();
     let mut simulation = project.simulation()?;
-    let frictions = &simulation.model().frictions;
-    let frictions: Vec<String> = frictions
-        .iter()
-        .map(|friction| friction.label.to_string())
-        .collect();
     let counts = [
         ("PART", dataset.parts.len()),
         ("POINT_MASS", dataset.point_masses.len()),
@@ -75,27 +67,22 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         elements: counts.into_iter().filter(|(_, count)| *count > 0).collect(),
         degrees_of_freedom: None,
         redundancies: Vec::new(),
-        not_unique: Vec::new(),
         moved: Vec::new(),
         defaults: defaults_in_use(dataset),
         messages,
-        assembly_error: None,
     };
     match simulation.assemble() {
         Ok(assembly) => {
             report.degrees_of_freedom = Some(simulation.system().degrees_of_freedom());
+            let noteworthy = warnings::of_assembly(project, &assembly, simulation.model());
+            report.messages.extend(noteworthy);
             report.redundancies = assembly.redundant;
             report.moved = assembly.moved;
-            report.not_unique = assembly
-                .not_unique
-                .into_iter()
-                .map(|place| frictions[place].clone())
-                .collect();
         }
         Err(error) => {
             let source = project.model_source();
             let message = failure::of_assembly(dataset, source, &error);
-            report.assembly_error = Some(message);
+            report.messages.push(message);
         }
     }
     Ok(report)
@@ -146,9 +133,6 @@ impl std::fmt::Display for CheckReport {
                 writeln!(f, "  {} in {}", dropped.equation, dropped.owner)?;
             }
         }
-        for friction in &self.not_unique {
-            writeln!(f, "warning: the reaction behind {friction} is not unique")?;
-        }
         for moved in &self.moved {
             writeln!(
                 f,
@@ -159,9 +143,6 @@ impl std::fmt::Display for CheckReport {
         for defaults in &self.defaults {
             writeln!(f, "{defaults}")?;
         }
-        match &self.assembly_error {
-            Some(error) => write!(f, "{error}"),
-            None => Ok(()),
-        }
+        Ok(())
     }
 }

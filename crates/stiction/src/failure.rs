@@ -1,38 +1,13 @@
 //! What stops a run, with the place of the element that it is about.
 
-use dataset::{Code, Dataset, Diagnostic, Severity, Source, Span};
+use dataset::{Code, Dataset, Severity, Source};
 use mechanics::model::Label;
 use mechanics::{AssemblyError, RunError};
 
+use crate::about::about;
 use crate::message::Message;
 
-/// Where the statement of an element stands.
-fn span_of(dataset: &Dataset, element: &Label) -> Option<Span> {
-    let id = element.id;
-    let header = match element.statement {
-        "PART" => &dataset.parts.by_id(id)?.header,
-        "POINT_MASS" => &dataset.point_masses.by_id(id)?.header,
-        "JOINT" => &dataset.joints.by_id(id)?.header,
-        "JPRIM" => &dataset.primitives.by_id(id)?.header,
-        "MOTION" => &dataset.motions.by_id(id)?.header,
-        "GCON" => &dataset.constraints.by_id(id)?.header,
-        "COUPLER" => &dataset.couplers.by_id(id)?.header,
-        "GEAR" => &dataset.gears.by_id(id)?.header,
-        "SFORCE" => &dataset.single_forces.by_id(id)?.header,
-        "SPRINGDAMPER" => &dataset.spring_dampers.by_id(id)?.header,
-        "VFORCE" => &dataset.vector_forces.by_id(id)?.header,
-        "VTORQUE" => &dataset.vector_torques.by_id(id)?.header,
-        "GFORCE" => &dataset.general_forces.by_id(id)?.header,
-        "BUSHING" => &dataset.bushings.by_id(id)?.header,
-        "FIELD" => &dataset.fields.by_id(id)?.header,
-        "BEAM" => &dataset.beams.by_id(id)?.header,
-        "FRICTION" => &dataset.frictions.by_id(id)?.header,
-        _ => return None,
-    };
-    Some(header.span)
-}
-
-/// An error about an element, or about the model as a whole at its first line.
+/// An error about an element, with help.
 fn message(
     dataset: &Dataset,
     source: &Source,
@@ -41,9 +16,7 @@ fn message(
     element: Option<&Label>,
     help: &str,
 ) -> Message {
-    let span = element.and_then(|element| span_of(dataset, element));
-    let span = span.unwrap_or_default();
-    let mut diagnostic = Diagnostic::new(Severity::Error, code, source.name(), span, text);
+    let mut diagnostic = about(dataset, source, Severity::Error, code, element, text);
     diagnostic.help(help);
     Message::new(diagnostic, source)
 }
@@ -65,12 +38,24 @@ pub(crate) fn of_assembly(dataset: &Dataset, source: &Source, error: &AssemblyEr
     message(dataset, source, Code::Assembly, text, element, help)
 }
 
+/// The code of an error of a run: a jam has its own.
+fn code_of(error: &RunError, otherwise: Code) -> Code {
+    if error.jammed { Code::Jam } else { otherwise }
+}
+
 /// Accelerations and reactions that cannot be found at the start.
 pub(crate) fn of_start(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
     let help = "look at the functions, masses and joints of this element at the start";
     let element = error.element.as_ref();
     let text = error.to_string();
-    message(dataset, source, Code::Assembly, text, element, help)
+    message(
+        dataset,
+        source,
+        code_of(error, Code::Assembly),
+        text,
+        element,
+        help,
+    )
 }
 
 /// An equilibrium that was not found.
@@ -78,7 +63,14 @@ pub(crate) fn of_equilibrium(dataset: &Dataset, source: &Source, error: &RunErro
     let text = format!("the static solution stopped {error}");
     let help = "the results up to then are kept";
     let element = error.element.as_ref();
-    message(dataset, source, Code::Equilibrium, text, element, help)
+    message(
+        dataset,
+        source,
+        code_of(error, Code::Equilibrium),
+        text,
+        element,
+        help,
+    )
 }
 
 /// An integration that stopped.
@@ -86,5 +78,12 @@ pub(crate) fn of_run(dataset: &Dataset, source: &Source, error: &RunError) -> Me
     let text = format!("the integration stopped {error}");
     let help = "the results up to then are kept";
     let element = error.element.as_ref();
-    message(dataset, source, Code::Integration, text, element, help)
+    message(
+        dataset,
+        source,
+        code_of(error, Code::Integration),
+        text,
+        element,
+        help,
+    )
 }

@@ -3,24 +3,30 @@
 use std::collections::HashSet;
 use std::io::{self, Write};
 
-use dataset::{Dataset, Severity};
+use dataset::{Code, Dataset, Severity};
 use mechanics::model::{Label, Model};
 use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
 use results::{MessageWriter, StepRow};
 
+use crate::about::about;
 use crate::balance::{EnergyBalance, SUSPICIOUS};
 use crate::defaults::defaults_in_use;
 use crate::lower::APPLIED;
 use crate::message::Message;
+use crate::project::Project;
 use crate::report::{FrictionReport, friction_table};
 use crate::session::OutputError;
+use crate::warnings;
 use crate::wrenches::Wrenches;
 
 /// Writer of the message file of a run.
-pub(crate) struct Journal<W: Write> {
+pub(crate) struct Journal<'p, W: Write> {
     writer: MessageWriter<W>,
     path: String,
+    project: &'p Project,
     warnings: usize,
+    /// Messages that the run itself gave reason for.
+    messages: Vec<Message>,
     /// Processor time at the start of the run, seconds.
     processor: Option<f64>,
     /// Frictions whose overlap has been warned about.
@@ -35,12 +41,14 @@ pub(crate) struct Journal<W: Write> {
 /// longer hold.
 const BROKEN: f64 = 1e-3;
 
-impl<W: Write> Journal<W> {
-    pub(crate) fn new(writer: MessageWriter<W>, path: String) -> Self {
+impl<'p, W: Write> Journal<'p, W> {
+    pub(crate) fn new(writer: MessageWriter<W>, path: String, project: &'p Project) -> Self {
         Self {
             writer,
             path,
+            project,
             warnings: 0,
+            messages: Vec::new(),
             processor: processor_time(),
             exhausted: HashSet::new(),
             broken: HashSet::new(),
@@ -67,10 +75,46 @@ impl<W: Write> Journal<W> {
         self.check(written)
     }
 
-    pub(crate) fn warning(&mut self, text: &str) -> Result<(), OutputError> {
-        self.warnings += 1;
-        let written = self.writer.warning(text);
-        self.check(written)
+    /// A warning that the run gives reason for, about an element of the model or all of it.
+    pub(crate) fn warning(
+        &mut self,
+        code: Code,
+        element: Option<&Label>,
+        text: String,
+    ) -> Result<(), OutputError> {
+        self.report(Severity::Warning, code, element, text)
+    }
+
+    fn report(
+        &mut self,
+        severity: Severity,
+        code: Code,
+        element: Option<&Label>,
+        text: String,
+    ) -> Result<(), OutputError> {
+        let project = self.project;
+        let (dataset, source) = (project.dataset(), project.model_source());
+        let about = about(dataset, source, severity, code, element, text);
+        match project.levels.judge(Message::new(about, source)) {
+            Some(message) => self.tell(message),
+            None => Ok(()),
+        }
+    }
+
+    fn tell(&mut self, message: Message) -> Result<(), OutputError> {
+        self.message(&message)?;
+        self.messages.push(message);
+        Ok(())
+    }
+
+    /// Keeps the error that ends the run, which its end tells.
+    pub(crate) fn keep(&mut self, message: Message) {
+        self.messages.push(message);
+    }
+
+    /// The messages that the run itself gave reason for.
+    pub(crate) fn into_messages(self) -> Vec<Message> {
+        self.messages
     }
 
     pub(crate) fn step_row(&mut self, row: &StepRow) -> Result<(), OutputError> {
@@ -78,15 +122,19 @@ impl<W: Write> Journal<W> {
         self.check(written)
     }
 
-    /// A warning or note about the input.
+    /// Writes a message.
     pub(crate) fn message(&mut self, message: &Message) -> Result<(), OutputError> {
         let text = message.to_string();
         let text = text.trim_end();
-        if message.diagnostic.severity == Severity::Note {
-            self.note(text)
-        } else {
-            self.warning(text)
-        }
+        let written = match message.diagnostic.severity {
+            Severity::Error => self.writer.error(text),
+            Severity::Warning => {
+                self.warnings += 1;
+                self.writer.warning(text)
+            }
+            Severity::Note => self.writer.note(text),
+        };
+        self.check(written)
     }
 
     /// Title, size of the model and defaults in use.
@@ -142,13 +190,8 @@ impl<W: Write> Journal<W> {
                 change.body, change.linear, change.angular
             ))?;
         }
-        for &friction in &assembly.not_unique {
-            let friction = &model.frictions[friction];
-            self.warning(&format!(
-                "{}: the reaction of its {} is not unique, because of the redundant constraints; \
-                 its friction depends on which equations were left out",
-                friction.label, model.joints[friction.joint].label
-            ))?;
+        for message in warnings::of_assembly(self.project, assembly, model) {
+            self.tell(message)?;
         }
         Ok(())
     }
@@ -214,10 +257,11 @@ impl<W: Write> Journal<W> {
         if rough == 0 {
             return Ok(());
         }
-        self.warning(&format!(
-            "at {rough} outputs the reactions are those of the step around them: the damping of bristles \
-             that are not passive left the instant without a solution"
-        ))
+        let text = format!(
+            "at {rough} outputs the reactions are those of the step around them: the damping of \
+             bristles that are not passive left the instant without a solution"
+        );
+        self.warning(Code::StepReactions, None, text)
     }
 
     /// Warns once for each sliding joint that has left its guide.
@@ -226,12 +270,13 @@ impl<W: Write> Journal<W> {
         for (place, friction) in snapshot.model().frictions.iter().enumerate() {
             let exhausted = wrenches.friction(place).load.overlap_exhausted;
             if exhausted && self.exhausted.insert(place) {
-                self.warning(&format!(
+                let text = format!(
                     "{}: the overlap of its joint is used up at time {}; a thousandth of \
                      INITIAL_OVERLAP is kept",
                     friction.label,
                     snapshot.time()
-                ))?;
+                );
+                self.warning(Code::OverlapUsedUp, Some(&friction.label), text)?;
             }
         }
         Ok(())
@@ -247,11 +292,12 @@ impl<W: Write> Journal<W> {
         let broken: Vec<_> = snapshot.broken(BROKEN, length).collect();
         for unmet in broken {
             if self.broken.insert(unmet.owner.clone()) {
-                self.warning(&format!(
+                let text = format!(
                     "{unmet} at time {}: this equation was left out as redundant, but the motion \
                      no longer meets it; joints or motions contradict one another",
                     snapshot.time()
-                ))?;
+                );
+                self.warning(Code::RedundantBroken, Some(&unmet.owner), text)?;
             }
         }
         Ok(())
@@ -263,8 +309,10 @@ impl<W: Write> Journal<W> {
         if !table.is_empty() {
             self.note(&format!("\nFriction:\n{table}"))?;
         }
-        for remarks in reports.iter().filter_map(FrictionReport::remarks) {
-            self.note(&remarks)?;
+        for report in reports {
+            for (code, text) in report.remarks() {
+                self.report(Severity::Note, code, Some(&report.friction), text)?;
+            }
         }
         Ok(())
     }
@@ -274,11 +322,12 @@ impl<W: Write> Journal<W> {
         let unit = &balance.unit;
         self.note(&format!("\nEnergy balance ({unit}):\n{balance}\n"))?;
         if balance.residual_share() > SUSPICIOUS {
-            self.warning(&format!(
+            let text = format!(
                 "the energy balance of the run does not close: {:.1e} of the energy exchanged is \
                  unaccounted for; a smaller error of the INTEGRATOR makes the results better",
                 balance.residual_share()
-            ))?;
+            );
+            self.warning(Code::EnergyBalance, None, text)?;
         }
         Ok(())
     }

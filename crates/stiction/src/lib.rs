@@ -42,6 +42,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod about;
 mod balance;
 mod channels;
 mod check;
@@ -50,6 +51,7 @@ pub mod explain;
 mod failure;
 mod friction_detail;
 mod journal;
+mod levels;
 mod listing;
 mod loader;
 mod lower;
@@ -63,11 +65,14 @@ mod session;
 mod settings;
 mod statics;
 mod text_table;
+mod warnings;
 mod wrenches;
 
 pub use balance::{EnergyBalance, EnergyTerm};
 pub use check::{CheckReport, check};
+pub use dataset::{Code, Diagnostic, Location, Place, Replacement, Severity, Span};
 pub use defaults::{FrictionDefaults, defaults_in_use};
+pub use levels::{LevelError, Levels};
 pub use message::{InputError, Message};
 pub use project::Project;
 pub use report::{FrictionReport, friction_table};

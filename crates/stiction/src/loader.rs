@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use dataset::{Code, Command, CommandKind, Dataset, Diagnostic, Severity, Source, Span};
 
+use crate::levels::Levels;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::project::{Project, SourcedCommand};
 
 /// Reads a dataset, or a command file with the dataset that it names.
-pub(crate) fn load(path: &Path) -> Result<Project, InputError> {
+pub(crate) fn load(path: &Path, levels: Levels) -> Result<Project, InputError> {
     let mut loader = Loader::default();
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
     let is_dataset = extension != "acf";
@@ -19,7 +20,7 @@ pub(crate) fn load(path: &Path) -> Result<Project, InputError> {
     } else {
         loader.read_commands(path);
     }
-    loader.finish(is_dataset)
+    loader.finish(is_dataset, levels)
 }
 
 /// A command file that is being gone through.
@@ -214,7 +215,8 @@ impl Loader {
         unsupported.map(|d| Message::new(d, source)).collect()
     }
 
-    fn finish(mut self, is_dataset: bool) -> Result<Project, InputError> {
+    fn finish(mut self, is_dataset: bool, levels: Levels) -> Result<Project, InputError> {
+        self.messages = levels.judge_all(self.messages);
         if self.messages.iter().any(Message::is_error) {
             let unsupported = self.unsupported();
             self.messages.extend(unsupported);
@@ -235,6 +237,7 @@ impl Loader {
             files: self.files,
             prefix: self.prefix.unwrap_or_else(|| "model".to_owned()),
             warnings: self.messages,
+            levels,
             is_dataset,
         })
     }

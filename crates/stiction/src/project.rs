@@ -7,6 +7,7 @@ use dataset::{
     Source, Span,
 };
 
+use crate::levels::Levels;
 use crate::loader;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
@@ -29,6 +30,7 @@ pub struct Project {
     pub(crate) files: Vec<PathBuf>,
     pub(crate) prefix: String,
     pub(crate) warnings: Vec<Message>,
+    pub(crate) levels: Levels,
     pub(crate) is_dataset: bool,
 }
 
@@ -48,7 +50,16 @@ impl Project {
     /// # Errors
     /// Everything that is wrong with the files, each with its place.
     pub fn load(path: &Path) -> Result<Self, InputError> {
-        loader::load(path)
+        Self::load_with(path, Levels::default())
+    }
+
+    /// [`Project::load`], telling of messages as `levels` say, here and in what is done with the
+    /// project.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the files, and what is denied.
+    pub fn load_with(path: &Path, levels: Levels) -> Result<Self, InputError> {
+        loader::load(path, levels)
     }
 
     /// The dataset, with the changes made so far.
@@ -112,12 +123,9 @@ impl Project {
         if let Some(parsed) = parsed.filter(|_| !has_error(&diagnostics)) {
             diagnostics.extend(self.dataset.apply(&parsed));
         }
-        let failed = has_error(&diagnostics);
-        let messages: Vec<Message> = diagnostics
-            .into_iter()
-            .map(|d| Message::new(d, &source))
-            .collect();
-        if failed {
+        let messages = diagnostics.into_iter().map(|d| Message::new(d, &source));
+        let messages = self.levels.judge_all(messages.collect());
+        if messages.iter().any(Message::is_error) {
             return Err(InputError { messages });
         }
         self.warnings.extend(messages);
@@ -223,6 +231,7 @@ impl Project {
                 CommandKind::Model { .. } | CommandKind::CommandFile { .. } => {}
             }
         }
+        let messages = self.levels.judge_all(messages);
         if messages.iter().any(Message::is_error) {
             Err(InputError { messages })
         } else {

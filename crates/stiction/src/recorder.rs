@@ -121,9 +121,9 @@ impl<W: Write> Recorder<W> {
 }
 
 /// Takes steps and outputs of a simulation to the files.
-pub(crate) struct Observe<'a, W: Write> {
+pub(crate) struct Observe<'a, 'p, W: Write> {
     pub(crate) recorder: &'a mut Recorder<W>,
-    pub(crate) log: &'a mut Journal<W>,
+    pub(crate) log: &'a mut Journal<'p, W>,
     pub(crate) watch: &'a mut dyn Watch,
     /// When the run began.
     pub(crate) started: Instant,
@@ -140,7 +140,7 @@ pub(crate) struct Observe<'a, W: Write> {
     pub(crate) interrupted: bool,
 }
 
-impl<W: Write> Observe<'_, W> {
+impl<W: Write> Observe<'_, '_, W> {
     /// After an accepted step; returns whether to go on.
     pub(crate) fn step(&mut self, report: &StepReport) -> bool {
         if report.time >= self.next_row {

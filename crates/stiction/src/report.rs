@@ -1,6 +1,7 @@
 //! The table of friction that a run ends with.
 
-use mechanics::model::Law;
+use dataset::Code;
+use mechanics::model::{Label, Law};
 use mechanics::{Snapshot, Tally};
 use results::UnitNames;
 
@@ -15,8 +16,8 @@ const DRIFT: f64 = 1e-6;
 /// What the friction of one joint did during a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrictionReport {
-    /// The FRICTION, such as `FRICTION/3 (HINGE)`.
-    pub friction: String,
+    /// The FRICTION, as text such as `FRICTION/3 (HINGE)`.
+    pub friction: Label,
     /// Its joint.
     pub joint: String,
     /// Largest magnitude of the friction force (sliding joint) or torque at an output.
@@ -48,29 +49,32 @@ pub struct FrictionReport {
 
 impl FrictionReport {
     /// What LUGRE did that a user of it should know: a drift and a damping that may give energy
-    /// back. `None` of ORIGINAL and where there is nothing to tell.
+    /// back. Nothing of ORIGINAL.
     #[must_use]
-    pub fn remarks(&self) -> Option<String> {
+    pub fn remarks(&self) -> Vec<(Code, String)> {
         let tally = &self.tally;
         let mut remarks = Vec::new();
         let drift = tally.drift.iter().fold(0.0, |sum: f64, d| sum.hypot(*d));
         if self.lugre && drift > DRIFT * tally.largest_creep {
-            remarks.push(format!(
-                "LUGRE has drifted by {drift:.3e} {} while the joint stuck, {:.3e} times the \
+            let text = format!(
+                "{}: LUGRE has drifted by {drift:.3e} {} while the joint stuck, {:.3e} times the \
                  largest deflection of its bristles; ORIGINAL holds without drift",
+                self.friction,
                 self.length_unit,
                 drift / tally.largest_creep
-            ));
+            );
+            remarks.push((Code::BristleDrift, text));
         }
         if let Some(time) = tally.not_passive {
-            remarks.push(format!(
-                "from time {time:.6} {} on DAMPING_COEFFICIENT is above 4 G/v, G being the level of \
+            let text = format!(
+                "{}: from time {time:.6} {} on DAMPING_COEFFICIENT is above 4 G/v, G being the level of \
                  the friction and v the speed of the surfaces: the bristles may give energy back to \
                  the motion; a smaller DAMPING_COEFFICIENT avoids it",
-                self.time_unit
-            ));
+                self.friction, self.time_unit
+            );
+            remarks.push((Code::BristlesNotPassive, text));
         }
-        (!remarks.is_empty()).then(|| format!("{}: {}", self.friction, remarks.join("; ")))
+        remarks
     }
 }
 
@@ -78,7 +82,7 @@ impl FrictionReport {
 pub(crate) fn reports(snapshot: &Snapshot<'_>, units: &UnitNames) -> Vec<FrictionReport> {
     let model = snapshot.model();
     let report = |friction: &mechanics::model::Friction| FrictionReport {
-        friction: friction.label.to_string(),
+        friction: friction.label.clone(),
         joint: model.joints[friction.joint].label.to_string(),
         peak: 0.0,
         peak_time: snapshot.time(),
@@ -146,7 +150,7 @@ pub fn friction_table(reports: &[FrictionReport]) -> String {
         let share = |count: usize| format!("{:.0} %", 100.0 * count as f64 / outputs.max(1) as f64);
         let clipped = if report.clipped > 0 { " (limited)" } else { "" };
         [
-            report.friction.clone(),
+            report.friction.to_string(),
             report.joint.clone(),
             format!("{:.4e} {}{clipped}", report.peak, report.unit),
             format!("{:.4} {}", report.peak_time, report.time_unit),

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 use std::time::Instant;
 
-use dataset::{Change, ChangeKind, CommandKind, Dataset, Simulate, SimulationKind};
+use dataset::{Change, ChangeKind, Code, CommandKind, Dataset, Simulate, SimulationKind};
 use mechanics::{Assembly, AssemblyError, Ending, Simulation};
 use results::{Header, MessageWriter, ReqWriter, ResWriter};
 
@@ -42,7 +42,7 @@ pub(crate) struct Runner<'a> {
     pub(crate) simulations: usize,
     pub(crate) started: Instant,
     pub(crate) last_end: f64,
-    pub(crate) log: Journal<File>,
+    pub(crate) log: Journal<'a, File>,
     pub(crate) recorder: Recorder<File>,
 }
 
@@ -60,6 +60,7 @@ pub(crate) enum Recorded {
 /// Reasons for the commands to end early.
 pub(crate) enum Halt {
     Ended(Outcome),
+    Failed(fn(String) -> Outcome, Box<Message>),
     Output(OutputError),
 }
 
@@ -77,7 +78,7 @@ impl Halt {
 
     /// A failure with its place.
     pub(crate) fn located(outcome: fn(String) -> Outcome, message: &Message) -> Self {
-        Self::Ended(outcome(message.to_string().trim_end().to_owned()))
+        Self::Failed(outcome, Box::new(message.clone()))
     }
 
     /// What an event does to the run after the simulation that it has ended.
@@ -125,7 +126,7 @@ impl<'a> Runner<'a> {
         let version = env!("CARGO_PKG_VERSION");
         let log = MessageWriter::new(log, "stiction", version, None)
             .map_err(|error| OutputError::new(&shown, &error))?;
-        let log = Journal::new(log, shown);
+        let log = Journal::new(log, shown, project);
         let (res, res_path, shown) = create("res")?;
         let header = Header {
             title: dataset.title.clone(),
@@ -187,6 +188,11 @@ impl<'a> Runner<'a> {
             match done {
                 Ok(()) => {}
                 Err(Halt::Ended(outcome)) => return Ok(outcome),
+                Err(Halt::Failed(outcome, message)) => {
+                    let text = message.to_string().trim_end().to_owned();
+                    self.log.keep(*message);
+                    return Ok(outcome(text));
+                }
                 Err(Halt::Output(error)) => return Err(error),
             }
         }
@@ -260,9 +266,11 @@ impl<'a> Runner<'a> {
             (K::Kinematic | K::Transient, 0) => {
                 self.log.note("there are no degrees of freedom: the motion follows from the joints and motions; it is run as a dynamic simulation")?;
             }
-            (K::Kinematic, _) => self.log.warning(&format!(
-                "SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"
-            ))?,
+            (K::Kinematic, _) => self.log.warning(
+                Code::NotKinematic,
+                None,
+                format!("SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"),
+            )?,
             _ => {}
         }
         let span = span.ok_or_else(|| Halt::refused("SIMULATE needs END or DURATION"))?;
@@ -424,12 +432,14 @@ impl<'a> Runner<'a> {
             .unwrap_or_default();
         res.finish(status)
             .map_err(|error| OutputError::new(path, &error))?;
+        let warnings = self.log.warnings();
         Ok(RunReport {
             outcome,
             time: self.simulation.state().time,
             simulations: self.simulations,
             outputs: count,
-            warnings: self.log.warnings(),
+            warnings,
+            messages: self.log.into_messages(),
             statistics: self.simulation.statistics(),
             frictions,
             balance: account.balance().cloned(),

@@ -115,14 +115,14 @@ impl Sensors {
 }
 
 /// Takes steps and outputs to the files and looks for events at the outputs.
-pub(crate) struct Sensing<'a, W: Write> {
-    pub(crate) rows: Observe<'a, W>,
+pub(crate) struct Sensing<'a, 'p, W: Write> {
+    pub(crate) rows: Observe<'a, 'p, W>,
     pub(crate) sensors: &'a mut Sensors,
     /// What events have done to the run.
     pub(crate) effect: Effect,
 }
 
-impl<W: Write> Observer for Sensing<'_, W> {
+impl<W: Write> Observer for Sensing<'_, '_, W> {
     fn step(&mut self, report: &StepReport) -> bool {
         self.rows.step(report)
     }

@@ -63,6 +63,9 @@ pub struct RunReport {
     pub outputs: usize,
     /// Number of warnings in the message file.
     pub warnings: usize,
+    /// What the run itself gave reason to say, and the error that ended it; what is to be said of
+    /// its files is in [`Session::warnings`].
+    pub messages: Vec<Message>,
     /// What the integrator did.
     pub statistics: Statistics,
     /// What friction did, by FRICTION.

@@ -134,6 +134,8 @@ impl Parser<'_, '_> {
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);
                 error.meant(near);
+                // Where it is required it is not missing.
+                self.unread.extend(near);
                 if self.items[name_at].starts_line {
                     error.note("the comma at the end of the line before continues the statement");
                 }

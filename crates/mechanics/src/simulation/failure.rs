@@ -30,6 +30,7 @@ impl Simulation {
             time: self.state.time,
             message: self.explain(failure),
             element: self.system.element_of(failure).cloned(),
+            jammed: false,
         }
     }
 
@@ -68,6 +69,7 @@ impl Simulation {
                     self.explain(cause)
                 ),
                 element: self.system.element_of(cause).cloned(),
+                jammed: false,
             },
             bdf::Error::Inaccurate { time, size } => RunError {
                 time: *time,
@@ -77,6 +79,7 @@ impl Simulation {
                      change faster than HMIN resolves"
                 ),
                 element: None,
+                jammed: false,
             },
         }
     }
@@ -91,5 +94,6 @@ pub(super) fn jammed(time: f64, jam: &Jam) -> RunError {
             jam.friction, jam.gain
         ),
         element: Some(jam.friction.clone()),
+        jammed: true,
     }
 }

@@ -77,6 +77,8 @@ pub struct RunError {
     pub message: String,
     /// The element that it is about, where there is one.
     pub element: Option<Label>,
+    /// Whether friction jams there: the friction that a load causes adds more to it than there was.
+    pub jammed: bool,
 }
 
 impl std::fmt::Display for RunError {
