@@ -134,22 +134,31 @@ impl Parser<'_, '_> {
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);
                 error.meant(near);
-                // Where it is required it is not missing.
-                self.unread.extend(near);
                 if self.items[name_at].starts_line {
                     error.note("the comma at the end of the line before continues the statement");
                 }
-                return self.skip_value();
+                self.skip_value();
+                // The one that is meant is not missing.
+                if let Some(near) = near {
+                    self.add(near, name_at, None);
+                }
+                return;
             }
         };
         let value = self.read_value(keyword, span);
+        self.add(keyword.name.full, name_at, value);
+    }
+
+    /// Adds the argument from the item `name_at` to the present one.
+    fn add(&mut self, keyword: &'static str, name_at: usize, value: Option<Value>) {
+        let span = self.span(name_at);
         let end = self.at;
         let value_span = match value {
             Some(Value::Flag) | None => span,
             Some(_) => self.span(name_at + 2).to(self.span(end - 1)),
         };
         self.arguments.push(Argument {
-            keyword: keyword.name.full,
+            keyword,
             span,
             value_span,
             items: name_at..end,
