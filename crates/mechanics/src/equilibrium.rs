@@ -4,6 +4,8 @@
 //! Q(x) + f(x, λ) + Gᵀλ = 0,   g(x) = 0        at rest
 //! ```
 //!
+//! together with the system elements, whose states rest, too (or keep their value: `STATIC_HOLD`),
+//!
 //! by Newton's method on the same matrix as the dynamics, with its mass and velocity parts reduced
 //! to a small multiple (STABILITY), which decides where the stiffness does not: bodies that may turn
 //! freely stay as they are. Steps are limited, and shortened until the imbalance falls, or else the
@@ -68,14 +70,17 @@ pub(crate) struct Statics {
     next: Vec<f64>,
     along: Vec<f64>,
     zero: Vec<f64>,
+    /// What multiplies changes of states and algebraic variables, by their place, in merits and
+    /// sizes; one for the others, which have units of their own.
+    element_weights: Vec<f64>,
     /// A force that is typical of the model: the imbalances are compared by it.
     force: f64,
 }
 
 impl Statics {
     pub(crate) fn new(system: &System) -> Self {
-        let n = system.velocity_count();
-        let size = n + system.row_count();
+        let n = system.rate_count();
+        let size = system.unknown_count();
         Self {
             matrix: Matrix::new(size),
             factors: SparseLu::new(),
@@ -84,6 +89,7 @@ impl Statics {
             next: vec![0.0; size],
             along: vec![0.0; size],
             zero: vec![0.0; n],
+            element_weights: vec![1.0; size],
             force: 1.0,
         }
     }
@@ -101,6 +107,7 @@ impl Statics {
         let mut stability = settings.stability;
         let mut polished = 0;
         let mut moved = f64::INFINITY;
+        self.weigh(system, state, multipliers);
         self.force = system.typical_force(multipliers);
         for iteration in 0..settings.iterations {
             let merit = self.residual(system, state, multipliers, length)?;
@@ -146,7 +153,8 @@ impl Statics {
         merit: f64,
         length: f64,
     ) -> Result<f64, Failure> {
-        let n = system.velocity_count();
+        let moving = system.velocity_count();
+        let n = system.rate_count();
         let residual = self.right.clone();
         let (start, start_multipliers) = (state.clone(), multipliers.to_vec());
         system.evaluate(state, true);
@@ -165,21 +173,25 @@ impl Statics {
                 self.factors.solve(&mut self.change);
             }
             let fine = solved.is_ok() && self.change.iter().all(|c| c.is_finite());
-            let uphill = fine && self.curvature() < 0.0;
+            let uphill = fine && self.curvature(system) < 0.0;
             if fine && !uphill {
-                let limit = self.limit(settings, n);
+                let limit = self.limit(settings, moving);
                 let mut part = limit;
                 for _ in 0..HALVINGS {
                     let step: Vec<f64> = self.change[..n].iter().map(|c| part * c).collect();
                     state.clone_from(&start);
-                    state.displace(&step);
+                    state.displace(&step[..moving]);
+                    for (y, change) in state.states_mut().iter_mut().zip(&step[moving..]) {
+                        *y += change;
+                    }
                     for (row, multiplier) in multipliers.iter_mut().enumerate() {
                         *multiplier = start_multipliers[row] + part * self.change[n + row];
                     }
                     let trial = self.residual(system, state, multipliers, length)?;
-                    if trial < (1.0 - 1e-4 * part) * merit || self.comes_closer(part, length) {
+                    let closer = self.comes_closer(system, part, length);
+                    if trial < (1.0 - 1e-4 * part) * merit || closer {
                         *stability = (0.1 * *stability).max(settings.stability);
-                        return Ok(largest_of(&step));
+                        return Ok(self.moved(&step));
                     }
                     part *= 0.5;
                 }
@@ -201,30 +213,47 @@ impl Statics {
 
     /// Whether the step that would follow `part` of the last one, with the same matrix, is shorter
     /// than that one: the natural monotonicity test. It does not depend on the scale of the forces.
-    fn comes_closer(&mut self, part: f64, length: f64) -> bool {
+    fn comes_closer(&mut self, system: &System, part: f64, length: f64) -> bool {
         self.next.copy_from_slice(&self.right);
         self.factors.solve(&mut self.next);
-        let n = self.zero.len();
+        let n = system.velocity_count();
         let size = |change: &[f64]| {
             let bodies = change[..n].chunks_exact(VELOCITIES);
-            bodies
+            let elements = system.element_places();
+            let elements = elements.map(|k| (self.element_weights[k] * change[k]).powi(2));
+            let moved = bodies
                 .map(|body| {
                     let moved = Vector3::from_column_slice(&body[..3]).norm() / length;
                     let turned = Vector3::from_column_slice(&body[3..]).norm();
                     moved * moved + turned * turned
                 })
-                .sum::<f64>()
-                .sqrt()
+                .sum::<f64>();
+            (moved + elements.sum::<f64>()).sqrt()
         };
         size(&self.next) < (1.0 - 0.25 * part) * size(&self.change)
     }
 
     /// `δᵀKδ` of the step: what the forces do along it once the constraints are met. Below zero it
-    /// leads to an unstable equilibrium.
-    fn curvature(&mut self) -> f64 {
-        let n = self.zero.len();
+    /// leads to an unstable equilibrium. System elements may make forces, too (a controller), or be
+    /// at odds with them on the way (an integral of an error): the larger of the values with the
+    /// elements that follow the step and that stay counts.
+    fn curvature(&mut self, system: &System) -> f64 {
+        let staying = self.curvature_along(system, false);
+        if staying >= 0.0 || !system.has_elements() {
+            return staying;
+        }
+        self.curvature_along(system, true)
+    }
+
+    fn curvature_along(&mut self, system: &System, elements_follow: bool) -> f64 {
+        let n = system.velocity_count();
         self.along.fill(0.0);
         self.along[..n].copy_from_slice(&self.change[..n]);
+        if elements_follow {
+            for k in system.element_places() {
+                self.along[k] = self.change[k];
+            }
+        }
         self.matrix.multiply(&self.along, &mut self.next);
         (0..n).map(|k| self.along[k] * self.next[k]).sum()
     }
@@ -251,8 +280,10 @@ impl Statics {
         multipliers: &[f64],
         length: f64,
     ) -> Result<f64, Failure> {
-        let n = system.velocity_count();
+        let moving = system.velocity_count();
+        let n = system.rate_count();
         system.evaluate(state, false);
+        system.set_solution(&self.zero, 1.0, multipliers);
         system.forces(multipliers, &mut self.right[..n]);
         for (row, &place) in system.rows.iter().enumerate() {
             let level = system.constraints[place].level;
@@ -263,30 +294,62 @@ impl Statics {
                 0.0
             };
         }
+        let first = n + system.row_count();
+        system.algebraic_residual(&mut self.right[first..]);
         if self.right.iter().any(|r| !r.is_finite()) {
             return Err(Failure::NotANumber {
                 element: system.find_not_a_number(),
             });
         }
         let weight = self.force;
-        let forces = self.right[..n].chunks_exact(VELOCITIES).map(|body| {
+        let forces = self.right[..moving].chunks_exact(VELOCITIES).map(|body| {
             let force = Vector3::from_column_slice(&body[..3]).norm() / weight;
             let torque = Vector3::from_column_slice(&body[3..]).norm() / (weight * length);
             force * force + torque * torque
         });
-        let errors = self.right[n..].iter().map(|e| (e / length) * (e / length));
-        Ok((forces.sum::<f64>() + errors.sum::<f64>()).sqrt())
+        let errors = self.right[n..first].iter();
+        let errors = errors.map(|e| (e / length) * (e / length));
+        let elements = system.element_places();
+        let elements = elements.map(|k| (self.element_weights[k] * self.right[k]).powi(2));
+        Ok((forces.sum::<f64>() + errors.sum::<f64>() + elements.sum::<f64>()).sqrt())
     }
 
-    /// Largest force or torque left over.
+    /// Largest force or torque left over; of system elements what is left relative to their values.
     fn imbalance(&self, system: &System) -> f64 {
-        largest_of(&self.right[..system.velocity_count()])
+        let places = (0..system.velocity_count()).chain(system.element_places());
+        places.fold(0.0_f64, |largest, k| largest.max(self.left(k)))
     }
 
+    fn left(&self, place: usize) -> f64 {
+        (self.element_weights[place] * self.right[place]).abs()
+    }
+
+    /// The equation that lacks most.
     fn largest(&self, system: &System) -> usize {
-        (0..system.velocity_count())
-            .max_by(|&a, &b| self.right[a].abs().total_cmp(&self.right[b].abs()))
+        let places = (0..system.velocity_count()).chain(system.element_places());
+        places
+            .max_by(|&a, &b| self.left(a).total_cmp(&self.left(b)))
             .unwrap_or(0)
+    }
+
+    /// Size of a step of positions and states.
+    fn moved(&self, step: &[f64]) -> f64 {
+        let weighted = step.iter().zip(&self.element_weights);
+        weighted.fold(0.0_f64, |m, (change, weight)| {
+            m.max((change * weight).abs())
+        })
+    }
+
+    /// Weights of the system elements: their values count relative to those at the start, and at
+    /// least relative to one.
+    fn weigh(&mut self, system: &System, state: &State, multipliers: &[f64]) {
+        let values = state
+            .states()
+            .iter()
+            .chain(&multipliers[system.row_count()..]);
+        for (place, value) in system.element_places().zip(values) {
+            self.element_weights[place] = 1.0 / value.abs().max(1.0);
+        }
     }
 }
 

@@ -49,8 +49,8 @@ pub(crate) struct GainWatch {
 
 impl GainWatch {
     pub(crate) fn new(system: &System) -> Self {
-        let n = system.velocity_count();
-        let size = n + system.row_count();
+        let n = system.rate_count();
+        let size = system.unknown_count();
         let frictions = system.model.frictions.len();
         Self {
             matrix: Matrix::new(size),
@@ -144,7 +144,7 @@ impl GainWatch {
         multipliers: &[f64],
         before: Option<&[Memory]>,
     ) -> Result<f64, Failure> {
-        let n = system.velocity_count();
+        let n = system.rate_count();
         system.assemble_frictionless_instant(&self.zero, multipliers, &mut self.matrix);
         self.factors
             .factor(&self.matrix)

@@ -38,6 +38,38 @@ pub enum Failure {
     },
 }
 
+/// Magnitude below which rates of states and algebraic variables count as zero, in their own unit.
+const SMALLEST: f64 = 1e-6;
+
+/// Changes of the rates of states and of the algebraic variables in an iteration.
+#[derive(Clone, Copy, Debug, Default)]
+struct ElementChange {
+    /// The largest one relative to the value itself, and its place among the unknowns.
+    own: f64,
+    unknown: usize,
+    /// The largest one relative to all values of its kind.
+    common: f64,
+}
+
+impl ElementChange {
+    /// Whether nothing but rounding is left, where `last` was the change before.
+    fn settled(&self, last: f64) -> bool {
+        self.own <= 1e-13 || self.own >= 0.5 * last && self.common <= 1e-9
+    }
+}
+
+/// What an equation or unknown of the Newton matrix belongs to.
+enum Place {
+    /// A component of the motion of a body: six numbers a body.
+    Motion(usize),
+    /// A differential state.
+    State(usize),
+    /// A constraint equation, by its place among all of them.
+    Constraint(usize),
+    /// An algebraic variable.
+    Algebraic(usize),
+}
+
 /// Solves the equations at γ = 0: matrix, factors and right-hand side with fixed storage.
 #[derive(Clone, Debug)]
 pub(crate) struct Instant {
@@ -53,8 +85,8 @@ pub(crate) struct Instant {
 
 impl Instant {
     pub(crate) fn new(system: &System) -> Self {
-        let n = system.velocity_count();
-        let size = n + system.row_count();
+        let n = system.rate_count();
+        let size = system.unknown_count();
         Self {
             matrix: Matrix::new(size),
             factors: SparseLu::new(),
@@ -62,13 +94,13 @@ impl Instant {
             force: vec![0.0; n],
             momentum: vec![0.0; n],
             zero: vec![0.0; n],
-            guess: vec![0.0; system.row_count()],
+            guess: vec![0.0; system.multiplier_count()],
             guessed_accelerations: vec![0.0; n],
         }
     }
 
-    /// Accelerations `u̇` and multipliers `λ` at `state`, with friction and reactions of the same
-    /// instant. `accelerations` and `multipliers` hold the first guess on entry.
+    /// Accelerations `u̇` and multipliers `λ` at `state`, with friction, reactions and system elements
+    /// of the same instant. `accelerations` and `multipliers` hold the first guess on entry.
     pub(crate) fn accelerations(
         &mut self,
         system: &mut System,
@@ -80,8 +112,10 @@ impl Instant {
         self.guessed_accelerations.copy_from_slice(accelerations);
         system.set_statics(false);
         system.evaluate(state, false);
-        let n = system.velocity_count();
+        let n = system.rate_count();
+        let rows = system.row_count();
         let mut last = f64::INFINITY;
+        let mut last_elements = f64::INFINITY;
         let mut worst = 0;
         let mut renew = true;
         for _ in 0..ITERATIONS {
@@ -92,7 +126,7 @@ impl Instant {
             self.factors.solve(&mut self.right);
             let mut change = 0.0_f64;
             let mut size = 0.0_f64;
-            for row in 0..multipliers.len() {
+            for row in 0..rows {
                 if self.right[n + row].abs() > change {
                     change = self.right[n + row].abs();
                     worst = n + row;
@@ -100,23 +134,63 @@ impl Instant {
                 multipliers[row] += self.right[n + row];
                 size = size.max(multipliers[row].abs());
             }
+            for row in rows..multipliers.len() {
+                multipliers[row] += self.right[n + row];
+            }
             for k in 0..n {
                 accelerations[k] += self.right[k];
+            }
+            let elements = self.element_change(system, accelerations, multipliers);
+            if elements.own > 1e-9 {
+                worst = elements.unknown;
             }
             if !(change.is_finite() && accelerations.iter().all(|a| a.is_finite())) {
                 return Err(self.not_a_number(system));
             }
             // Without friction in the reactions the equations are linear: the second solve only
             // cleans up the rounding of the first. With it the iteration ends at rounding.
-            let solved = last.is_finite() && system.model.frictions.is_empty();
+            let linear = system.model.frictions.is_empty() && !system.has_elements();
+            let solved = last.is_finite() && linear;
             let rounding = change >= 0.5 * last && change <= 1e-9 * size;
-            if solved || change <= 1e-13 * size || rounding {
+            let settled = solved || change <= 1e-13 * size || rounding;
+            if settled && elements.settled(last_elements) {
                 return Ok(());
             }
-            renew = change > 0.1 * last;
+            renew = change > 0.1 * last || elements.own > 0.1 * last_elements;
             last = change;
+            last_elements = elements.own;
         }
         Err(Failure::NotConverged { unknown: worst })
+    }
+
+    /// How much the rates of states and the algebraic variables changed in the last iteration.
+    fn element_change(
+        &self,
+        system: &System,
+        accelerations: &[f64],
+        multipliers: &[f64],
+    ) -> ElementChange {
+        let (moving, n) = (system.velocity_count(), system.rate_count());
+        let largest = |values: &[f64]| values.iter().fold(SMALLEST, |m, v| m.max(v.abs()));
+        let groups = [
+            (moving, &accelerations[moving..]),
+            (n + system.row_count(), &multipliers[system.row_count()..]),
+        ];
+        // Rounding in a variable that reads reactions is that of the reactions.
+        let scales = [largest(groups[0].1), largest(multipliers)];
+        let mut found = ElementChange::default();
+        for ((first, values), scale) in groups.into_iter().zip(scales) {
+            for (k, value) in values.iter().enumerate() {
+                let change = self.right[first + k].abs();
+                let own = change / value.abs().max(SMALLEST);
+                if own > found.own {
+                    found.own = own;
+                    found.unknown = first + k;
+                }
+                found.common = found.common.max(change / scale);
+            }
+        }
+        found
     }
 
     /// The multipliers that the last solution started from.
@@ -149,7 +223,8 @@ impl Instant {
         accelerations: &[f64],
         multipliers: &[f64],
     ) -> Result<(), Failure> {
-        let n = system.velocity_count();
+        let n = system.rate_count();
+        system.set_solution(accelerations, 1.0, multipliers);
         system.mass_times(accelerations, &mut self.momentum);
         system.forces(multipliers, &mut self.force);
         for k in 0..n {
@@ -160,6 +235,8 @@ impl Instant {
             let bodies = &system.constraints[place].bodies;
             self.right[n + row] = evaluated.acceleration - evaluated.rate_of(bodies, accelerations);
         }
+        let first = n + system.row_count();
+        system.algebraic_residual(&mut self.right[first..]);
         if self.right.iter().all(|r| r.is_finite()) {
             Ok(())
         } else {
@@ -182,7 +259,8 @@ impl Instant {
         multipliers: &[f64],
         length: f64,
     ) -> Result<(), Failure> {
-        let n = system.velocity_count();
+        let n = system.rate_count();
+        let moving = system.velocity_count();
         system.evaluate(state, false);
         self.factor(system, multipliers)?;
         // One matrix serves: the corrections are of the size of the integration error.
@@ -197,7 +275,7 @@ impl Instant {
                 break;
             }
             self.factors.solve(&mut self.right);
-            state.displace(&self.right[..n]);
+            state.displace(&self.right[..moving]);
             system.evaluate(state, false);
         }
         self.right[..n].fill(0.0);
@@ -227,6 +305,9 @@ impl System {
                 return Some(self.model.forces[place].label.clone());
             }
         }
+        if let Some(label) = self.element_not_a_number() {
+            return Some(label.clone());
+        }
         // Motions and functions first: what they give spreads to joints through the state.
         let constraints = self.constraints.iter().zip(&self.evaluated);
         let (joints, others): (Vec<_>, Vec<_>) =
@@ -255,20 +336,37 @@ impl System {
         }
     }
 
+    /// What a place among the equations and unknowns of the Newton matrix stands for.
+    fn place(&self, place: usize) -> Option<Place> {
+        let velocities = self.velocity_count();
+        if place < velocities {
+            return Some(Place::Motion(place));
+        }
+        let Some(row) = place.checked_sub(self.rate_count()) else {
+            return Some(Place::State(place - velocities));
+        };
+        if let Some(&constraint) = self.rows.get(row) {
+            return Some(Place::Constraint(constraint));
+        }
+        let variable = row - self.rows.len();
+        (variable < self.model.algebraics.len()).then_some(Place::Algebraic(variable))
+    }
+
     /// The element that a row or unknown of the Newton matrix belongs to.
     pub(crate) fn element_at(&self, place: usize) -> Option<&Label> {
-        let n = self.velocity_count();
-        if place < n {
-            return Some(&self.model.bodies[place / 6].label);
-        }
-        let constraint = *self.rows.get(place - n)?;
-        Some(self.owner_label(self.constraints[constraint].owner))
+        Some(match self.place(place)? {
+            Place::Motion(motion) => &self.model.bodies[motion / 6].label,
+            Place::State(state) => &self.model.states[state].label,
+            Place::Constraint(place) => self.owner_label(self.constraints[place].owner),
+            Place::Algebraic(variable) => &self.model.algebraics[variable].label,
+        })
     }
 
     /// The friction of the joint whose multiplier an unknown of the Newton matrix is.
     fn friction_at(&self, place: usize) -> Option<&Label> {
-        let row = place.checked_sub(self.velocity_count())?;
-        let constraint = *self.rows.get(row)?;
+        let Some(Place::Constraint(constraint)) = self.place(place) else {
+            return None;
+        };
         let Owner::Joint(joint) = self.constraints[constraint].owner else {
             return None;
         };
@@ -292,28 +390,26 @@ impl System {
     /// What a row or unknown of the Newton matrix means, for messages.
     #[must_use]
     pub fn describe(&self, place: usize) -> String {
-        let n = self.velocity_count();
-        if place < n {
-            let component = [
-                "X",
-                "Y",
-                "Z",
-                "rotation about X",
-                "rotation about Y",
-                "rotation about Z",
-            ];
-            return format!(
-                "{}, {}",
-                self.model.bodies[place / 6].label,
-                component[place % 6]
-            );
-        }
-        match self.rows.get(place - n) {
-            Some(&constraint) => {
+        match self.place(place) {
+            Some(Place::Motion(motion)) => {
+                let component = [
+                    "X",
+                    "Y",
+                    "Z",
+                    "rotation about X",
+                    "rotation about Y",
+                    "rotation about Z",
+                ];
+                let body = &self.model.bodies[motion / 6];
+                format!("{}, {}", body.label, component[motion % 6])
+            }
+            Some(Place::State(state)) => self.model.states[state].label.to_string(),
+            Some(Place::Constraint(constraint)) => {
                 let constraint = &self.constraints[constraint];
                 let name = crate::constraint::name(constraint.form);
                 format!("{}, equation {name}", self.owner_label(constraint.owner))
             }
+            Some(Place::Algebraic(variable)) => self.model.algebraics[variable].label.to_string(),
             None => "an unknown equation".to_owned(),
         }
     }

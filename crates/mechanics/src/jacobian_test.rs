@@ -1,5 +1,5 @@
 //! The assembled Newton matrix against differences of the residual, over a model with every kind
-//! of joint, motion, force and friction, in general position.
+//! of joint, motion, force, friction and system element, in general position.
 
 use nalgebra::{Matrix3, Vector3};
 use numerics::linear::Matrix;
@@ -7,8 +7,9 @@ use numerics::linear::Matrix;
 use crate::expression::{Binary, Input, Operation, Program, Unary};
 use crate::measure::{Measure, Quantity};
 use crate::model::{
-    Body, ForceAndTorque, ForceKind, Friction, FrictionJoint, Joint, JointKind, JointStart, Label,
-    Law, Level, Marker, Model, Motion, MotionFreedom, Pin, SingleForce,
+    AlgebraicVariable, Body, Definition, DifferentialState, ForceAndTorque, ForceKind, Form,
+    Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Law, Level, Marker, Model,
+    Motion, MotionFreedom, Pin, SingleForce,
 };
 use crate::rotation::Quaternion;
 use crate::state::State;
@@ -53,11 +54,11 @@ const KINDS: [JointKind; 15] = [
     },
 ];
 
-/// A function of two measures and time: `sin(m0) m1² + t`.
-fn function(first: usize, second: usize) -> Program {
+/// A function of two inputs and time: `sin(a) b² + t`.
+fn function(first: Input, second: Input) -> Program {
     let mut program = Program::default();
-    let a = program.push(Operation::Input(Input::Measure(first)));
-    let b = program.push(Operation::Input(Input::Measure(second)));
+    let a = program.push(Operation::Input(first));
+    let b = program.push(Operation::Input(second));
     let t = program.push(Operation::Input(Input::Time));
     let sine = program.push(Operation::Unary(Unary::Sin, a));
     let square = program.push(Operation::Binary(Binary::Multiply, b, b));
@@ -195,9 +196,10 @@ fn model(law: &Law) -> Model {
             i,
             j,
             kind,
-            function: function(measures, measures + 1),
+            function: function(Input::Measure(measures), Input::Measure(measures + 1)),
         });
     }
+    add_elements(&mut model);
     let inputs = friction::Inputs::ALL;
     let pin = friction::RevoluteLoad {
         inputs,
@@ -255,6 +257,46 @@ fn model(law: &Law) -> Model {
     model
 }
 
+/// States and variables that read everything and one another, and forces that read them.
+fn add_elements(model: &mut Model) {
+    let readings = [
+        [Input::Measure(1), Input::State(1)],
+        [Input::Algebraic(0), Input::StateRate(2)],
+        [Input::State(0), Input::Measure(2)],
+        [Input::StateRate(1), Input::Measure(0)],
+    ];
+    for (place, [a, b]) in readings.into_iter().enumerate() {
+        model.states.push(DifferentialState {
+            label: label("DIFF", place + 1),
+            form: [Form::Explicit, Form::Implicit][place % 2],
+            function: function(a, b),
+            start: 0.3 + 0.2 * place as f64,
+            start_rate: 0.0,
+            held_in_statics: false,
+        });
+    }
+    let readings = [
+        [Input::Algebraic(0), Input::Measure(3)],
+        [Input::Algebraic(1), Input::State(3)],
+        [Input::StateRate(0), Input::Algebraic(0)],
+    ];
+    for (place, [a, b]) in readings.into_iter().enumerate() {
+        let form = [Form::Explicit, Form::Implicit][place % 2];
+        model.algebraics.push(AlgebraicVariable {
+            label: label("VARIABLE", place + 1),
+            definition: Definition::Function(form, function(a, b)),
+            start: 0.0,
+        });
+    }
+    let readings = [
+        [Input::State(0), Input::Algebraic(1)],
+        [Input::StateRate(2), Input::Algebraic(2)],
+    ];
+    for (force, [a, b]) in model.forces.iter_mut().zip(readings) {
+        force.function = function(a, b);
+    }
+}
+
 /// Residual of the step equations at `γ`, as functions of `(δu, δΛ)` from a base point.
 struct Residual {
     system: System,
@@ -267,12 +309,16 @@ struct Residual {
 
 impl Residual {
     fn move_to(&mut self, change: &[f64]) -> (State, Vec<f64>) {
-        let n = self.system.velocity_count();
+        let moving = self.system.velocity_count();
+        let n = self.system.rate_count();
         let mut state = self.base.clone();
-        let step: Vec<f64> = change[..n].iter().map(|u| self.gamma * u).collect();
+        let step: Vec<f64> = change[..moving].iter().map(|u| self.gamma * u).collect();
         state.displace(&step);
         for (u, c) in state.velocities_mut().iter_mut().zip(change) {
             *u += c;
+        }
+        for (y, c) in state.states_mut().iter_mut().zip(&change[moving..]) {
+            *y += c;
         }
         let multipliers: Vec<f64> = self
             .impulses
@@ -285,14 +331,9 @@ impl Residual {
     }
 
     fn at(&mut self, change: &[f64]) -> Vec<f64> {
-        let n = self.system.velocity_count();
+        let n = self.system.rate_count();
         let (state, multipliers) = self.move_to(change);
-        let w: Vec<f64> = state
-            .velocities()
-            .iter()
-            .zip(&self.past)
-            .map(|(u, p)| u - p)
-            .collect();
+        let w = self.take_change(&state, &multipliers);
         let mut residual = vec![0.0; n + multipliers.len()];
         let mut force = vec![0.0; n];
         self.system.mass_times(&w, &mut residual[..n]);
@@ -311,7 +352,21 @@ impl Residual {
                 rate
             };
         }
+        let first = n + self.system.row_count();
+        self.system.algebraic_residual(&mut residual[first..]);
+        for r in &mut residual[first..] {
+            *r *= -self.gamma;
+        }
         residual
+    }
+
+    /// Velocities and states less their past, as the functions read them.
+    fn take_change(&mut self, state: &State, multipliers: &[f64]) -> Vec<f64> {
+        let rates = state.values[state.rate_range()].iter();
+        let change: Vec<f64> = rates.zip(&self.past).map(|(u, p)| u - p).collect();
+        self.system
+            .set_solution(&change, 1.0 / self.gamma, multipliers);
+        change
     }
 }
 
@@ -343,8 +398,9 @@ fn bristles() -> Law {
 fn check(law: &Law, rows: Rows) {
     let system = System::new(model(law));
     let base = system.given_state(0.3);
-    let n = system.velocity_count();
-    let size = n + system.row_count();
+    let n = system.rate_count();
+    let moving = system.velocity_count();
+    let size = system.unknown_count();
     let past: Vec<f64> = (0..n).map(|k| 0.5 * vector(k)[k % 3]).collect();
     let impulses: Vec<f64> = (0..size - n).map(|k| vector(k + 7)[k % 3]).collect();
     let mut residual = Residual {
@@ -367,12 +423,7 @@ fn check(law: &Law, rows: Rows) {
 
     let zero = vec![0.0; size];
     let (state, multipliers) = residual.move_to(&zero);
-    let w: Vec<f64> = state
-        .velocities()
-        .iter()
-        .zip(&residual.past)
-        .map(|(u, p)| u - p)
-        .collect();
+    let w = residual.take_change(&state, &multipliers);
     let mut matrix = Matrix::new(size);
     residual.system.assemble(
         rows,
@@ -383,7 +434,7 @@ fn check(law: &Law, rows: Rows) {
     );
     let assembled = matrix.to_dense();
     for column in 0..size {
-        let turns = column >= n || column % 6 < 3 || column / 6 != 4;
+        let turns = column >= moving || column % 6 < 3 || column / 6 != 4;
         // Sixth-order differences: truncation h⁶, far below the rounding of 1e-13/h.
         let h = 1e-3;
         let mut slope = vec![0.0; size];
@@ -400,7 +451,7 @@ fn check(law: &Law, rows: Rows) {
             let entry = assembled[row * size + column];
             let error = (entry - slope[row]).abs();
             // The point mass's rotations are not unknowns of the motion: their inertia alone stays.
-            if turns && (row >= n || row % 6 < 3 || row / 6 != 4) {
+            if turns && (row >= moving || row % 6 < 3 || row / 6 != 4) {
                 let places = (
                     residual.system.describe(row),
                     residual.system.describe(column),

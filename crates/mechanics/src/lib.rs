@@ -105,6 +105,7 @@ mod simulation;
 mod snapshot;
 pub mod state;
 mod system;
+mod system_elements;
 
 pub use assembly::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
 pub use constraint::Owner;

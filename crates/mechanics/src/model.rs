@@ -12,6 +12,7 @@ pub use crate::equation::Pin;
 use crate::expression::Program;
 use crate::measure::Measure;
 use crate::rotation::Quaternion;
+pub use crate::system_elements::{AlgebraicVariable, Definition, DifferentialState, Form};
 pub use friction::{ForceAndTorque, Law};
 
 /// How an element is called in messages: its statement, id and name.
@@ -370,6 +371,10 @@ pub struct Model {
     pub forces: Vec<SingleForce>,
     /// Friction in joints.
     pub frictions: Vec<Friction>,
+    /// Differential equations.
+    pub states: Vec<DifferentialState>,
+    /// Unknowns that follow from everything else.
+    pub algebraics: Vec<AlgebraicVariable>,
     /// Quantities that functions read.
     pub measures: Vec<Measure>,
     /// Elements that rest; a friction rests with its joint.

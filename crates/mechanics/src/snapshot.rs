@@ -170,6 +170,12 @@ impl<'a> Snapshot<'a> {
         self.state.works()
     }
 
+    /// Rate of a differential state.
+    #[must_use]
+    pub fn state_rate(&self, state: usize) -> f64 {
+        self.accelerations[self.system.velocity_count() + state]
+    }
+
     /// Value of a measure, of accelerations too.
     #[must_use]
     pub fn measure(&self, place: usize) -> f64 {
@@ -186,11 +192,20 @@ impl<'a> Snapshot<'a> {
     /// Value of a function; `result` gives the results that it reads.
     pub fn evaluate(&self, function: &Program, result: &dyn Fn(usize) -> f64) -> f64 {
         let mut registers = vec![0.0; function.len()];
-        function.evaluate(&mut registers, |input| match input {
+        function.evaluate(&mut registers, |input| self.read(input, result))
+    }
+
+    /// What a function reads; `result` gives the results.
+    #[must_use]
+    pub fn read(&self, input: Input, result: &dyn Fn(usize) -> f64) -> f64 {
+        match input {
             Input::Time => self.time(),
             Input::Measure(measure) => self.measure(measure),
+            Input::State(state) => self.state.states()[state],
+            Input::StateRate(state) => self.state_rate(state),
+            Input::Algebraic(variable) => self.multipliers[self.system.row_count() + variable],
             Input::Result(number) => result(number),
-        })
+        }
     }
 
     /// Part axes to ground axes of a body.

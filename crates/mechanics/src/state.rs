@@ -2,8 +2,8 @@
 //!
 //! The integrator's vector holds seven numbers of position a body (centre of mass in ground, unit
 //! quaternion of the part), then six of velocity a body (velocity of the centre of mass and angular
-//! velocity, both along ground axes), then the bristle deflections of LuGre frictions, and last the
-//! works of frictions, forces and motions.
+//! velocity, both along ground axes), then the differential states of system elements, then the
+//! bristle deflections of LuGre frictions, and last the works of frictions, forces and motions.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,9 +20,11 @@ pub const VELOCITIES: usize = 6;
 pub struct State {
     /// Time.
     pub time: f64,
-    /// Positions, velocities, bristle deflections and works; see the module's description.
+    /// Positions, velocities, differential states, bristle deflections and works; see the module's
+    /// description.
     pub values: Vec<f64>,
     bodies: usize,
+    states: usize,
     bristles: usize,
 }
 
@@ -33,15 +35,21 @@ impl State {
         Self {
             time,
             bodies: values.len() / (POSITIONS + VELOCITIES),
+            states: 0,
             bristles: 0,
             values,
         }
     }
 
-    /// Appends bristle deflections and works, all zero.
-    pub(crate) fn extend(&mut self, bristles: usize, works: usize) {
+    /// Appends differential states, unless it has some, and bristle deflections and works, all zero.
+    pub(crate) fn extend(&mut self, states: &[f64], bristles: usize, works: usize) {
+        if self.states != states.len() {
+            self.values.truncate(self.motions());
+            self.values.extend_from_slice(states);
+            self.states = states.len();
+        }
         self.bristles = bristles;
-        let size = self.motions() + bristles + works;
+        let size = self.rate_range().end + bristles + works;
         self.values.resize(size, 0.0);
     }
 
@@ -56,19 +64,37 @@ impl State {
         (POSITIONS + VELOCITIES) * self.bodies
     }
 
-    /// Places of the velocities among the values.
-    pub(crate) fn velocity_range(&self) -> std::ops::Range<usize> {
-        POSITIONS * self.bodies..self.motions()
+    /// Places among the values of what has a rate: velocities, then differential states.
+    pub(crate) fn rate_range(&self) -> std::ops::Range<usize> {
+        POSITIONS * self.bodies..self.motions() + self.states
+    }
+
+    /// Places of the differential states among the values.
+    pub(crate) fn state_range(&self) -> std::ops::Range<usize> {
+        self.motions()..self.motions() + self.states
+    }
+
+    /// The differential states, in the order of [`crate::model::Model::states`].
+    #[must_use]
+    pub fn states(&self) -> &[f64] {
+        &self.values[self.state_range()]
+    }
+
+    /// The differential states.
+    pub(crate) fn states_mut(&mut self) -> &mut [f64] {
+        let range = self.state_range();
+        &mut self.values[range]
     }
 
     /// Places of the bristle deflections among the values.
     pub(crate) fn bristle_range(&self) -> std::ops::Range<usize> {
-        self.motions()..self.motions() + self.bristles
+        let first = self.state_range().end;
+        first..first + self.bristles
     }
 
     /// Places of the works among the values.
     pub(crate) fn work_range(&self) -> std::ops::Range<usize> {
-        self.motions() + self.bristles..self.values.len()
+        self.bristle_range().end..self.values.len()
     }
 
     /// Works so far: what each friction took out, then what forces and what motions put in.

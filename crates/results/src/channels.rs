@@ -93,6 +93,12 @@ impl Entity {
         Self::of("ADAMS_Variable", name, id, vec![Component::new("Q", "")])
     }
 
+    /// A differential equation: its state `Q` and the rate of that, plain numbers.
+    pub fn differential(name: &str, id: u32) -> Self {
+        let components = ["Q", "QDOT"].map(|name| Component::new(name, ""));
+        Self::of("Differential_Equation", name, id, components.to_vec())
+    }
+
     /// A plant input of `count` variables: `IN1`, `IN2`, ...
     pub fn plant_input(name: &str, id: u32, count: usize) -> Self {
         Self::of("Plant_Input", name, id, numbered("IN", count))

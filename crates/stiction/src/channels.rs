@@ -1,12 +1,12 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
 //! Order: parts and point masses, joints, primitives, motions, general constraints, couplers, gears,
-//! applied forces, variables, plant inputs and outputs, frictions, requests; last our own entities,
+//! applied forces, variables, differential equations, plant inputs and outputs, frictions, requests; last our own entities,
 //! one a friction, where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
 use mechanics::Owner;
-use mechanics::expression::{Input, Register};
+use mechanics::expression::Register;
 use mechanics::rotation::to_euler_313;
 use results::{Component, Entity, Layout, LayoutError, Request, UnitNames};
 
@@ -22,6 +22,8 @@ pub(crate) struct Channels {
     elements: Vec<ForceElement>,
     /// Places of variables in the dataset, by plant input and output.
     ports: Vec<usize>,
+    /// Number of differential equations, which are the first of the model's states.
+    differentials: usize,
 }
 
 /// Values of one instant.
@@ -88,6 +90,10 @@ impl Channels {
             let name = name(&element.header, "VARIABLE");
             layout.push(Entity::variable(&name, element.header.id));
         }
+        for element in &dataset.differentials {
+            let name = name(&element.header, "DIFF");
+            layout.push(Entity::differential(&name, element.header.id));
+        }
         let mut ports = Vec::new();
         let mut add_ports = |variables: &[u32]| {
             ports.extend(
@@ -133,6 +139,7 @@ impl Channels {
             requests,
             elements,
             ports,
+            differentials: dataset.differentials.len(),
         })
     }
 
@@ -182,6 +189,10 @@ impl Channels {
         let registers = evaluate(outputs, wrenches);
         let at = |register: Register| registers[register as usize];
         values.extend(outputs.variables.iter().map(|value| at(*value)));
+        for state in 0..self.differentials {
+            values.push(snapshot.state().states()[state]);
+            values.push(snapshot.state_rate(state));
+        }
         values.extend(
             self.ports
                 .iter()
@@ -212,11 +223,8 @@ fn evaluate(outputs: &Outputs, wrenches: &Wrenches<'_>) -> Vec<f64> {
     let program = &outputs.program;
     let mut registers = vec![0.0; program.len()];
     if !program.is_empty() {
-        program.evaluate(&mut registers, |input| match input {
-            Input::Time => snapshot.time(),
-            Input::Measure(measure) => snapshot.measure(measure),
-            Input::Result(number) => outputs.results[number].value(wrenches),
-        });
+        let result = |number: usize| outputs.results[number].value(wrenches);
+        program.evaluate(&mut registers, |input| snapshot.read(input, &result));
     }
     registers
 }

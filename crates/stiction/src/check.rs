@@ -59,6 +59,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("BEAM", dataset.beams.len()),
         ("FRICTION", dataset.frictions.len()),
         ("VARIABLE", dataset.variables.len()),
+        ("DIFF", dataset.differentials.len()),
         ("REQUEST", dataset.requests.len()),
         ("SENSOR", dataset.sensors.len()),
     ];

@@ -21,6 +21,10 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     let vectors = vectors.into_iter().flat_map(|list| list.iter());
     let vectors = vectors.flat_map(|element| element.components.iter().flatten());
     let variables = dataset.variables.iter().map(|element| &element.function);
+    let differentials = dataset
+        .differentials
+        .iter()
+        .map(|element| &element.function);
     let requests = dataset
         .requests
         .iter()
@@ -32,7 +36,8 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         .chain(motions)
         .chain(forces)
         .chain(vectors)
-        .chain(variables);
+        .chain(variables)
+        .chain(differentials);
     let mut missing = Vec::new();
     for expression in moving {
         find_missing(dataset, expression, &mut missing);
@@ -204,6 +209,7 @@ fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
         ElementKind::Beam => dataset.beams.position(id),
         ElementKind::Spline => dataset.splines.position(id),
         ElementKind::Variable => dataset.variables.position(id),
+        ElementKind::Differential => dataset.differentials.position(id),
         ElementKind::Friction => dataset.frictions.position(id),
         ElementKind::PlantInput => dataset.plant_inputs.position(id),
         ElementKind::PlantOutput => dataset.plant_outputs.position(id),
@@ -227,6 +233,7 @@ const fn statement(element: ElementKind) -> &'static str {
         ElementKind::Beam => "BEAM",
         ElementKind::Spline => "SPLINE",
         ElementKind::Variable => "VARIABLE",
+        ElementKind::Differential => "DIFF",
         ElementKind::Friction => "FRICTION",
         ElementKind::PlantInput => "PINPUT",
         ElementKind::PlantOutput => "POUTPUT",

@@ -29,6 +29,8 @@ pub enum ElementKind {
     Spline,
     /// VARIABLE.
     Variable,
+    /// DIFF.
+    Differential,
     /// FRICTION.
     Friction,
     /// PINPUT.
@@ -196,8 +198,8 @@ functions! {
     // Elements.
     Varval "VARVAL" 1 [Element(E::Variable)] 1;
     Aryval "ARYVAL" 2 [Element(E::Other), Integer] 2;
-    Dif "DIF" 1 [Element(E::Other)] 1;
-    Dif1 "DIF1" 1 [Element(E::Other)] 1;
+    Dif "DIF" 1 [Element(E::Differential)] 1;
+    Dif1 "DIF1" 1 [Element(E::Differential)] 1;
     Pinval "PINVAL" 2 [Element(E::PlantInput), Integer] 2;
     Pouval "POUVAL" 2 [Element(E::PlantOutput), Integer] 2;
     Senval "SENVAL" 1 [Element(E::Other)] 1;

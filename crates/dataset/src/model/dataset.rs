@@ -1,10 +1,11 @@
 //! The whole model.
 
 use super::{
-    Beam, Bushing, Coupler, Elements, Equilibrium, Field, Friction, Gear, GeneralConstraint,
-    Graphics, InitialConditions, Integrator, Joint, JointPrimitive, Kinematics, Marker, Motion,
-    OutputOptions, Part, PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor,
-    SingleForce, Spline, SpringDamper, Switchable, Units, Variable, VectorForce,
+    Beam, Bushing, Coupler, DifferentialEquation, Elements, Equilibrium, Field, Friction, Gear,
+    GeneralConstraint, Graphics, InitialConditions, Integrator, Joint, JointPrimitive, Kinematics,
+    Marker, Motion, OutputOptions, Part, PlantPort, PointMass, Preferences, Request,
+    ResultsOptions, Sensor, SingleForce, Spline, SpringDamper, Switchable, Units, Variable,
+    VectorForce,
 };
 use std::collections::BTreeSet;
 
@@ -59,6 +60,8 @@ pub struct Dataset {
     pub splines: Elements<Spline>,
     /// VARIABLE.
     pub variables: Elements<Variable>,
+    /// DIFF.
+    pub differentials: Elements<DifferentialEquation>,
     /// PINPUT.
     pub plant_inputs: Elements<PlantPort>,
     /// POUTPUT.

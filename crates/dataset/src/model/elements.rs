@@ -112,6 +112,7 @@ elements!(
     super::Field,
     super::Beam,
     super::Variable,
+    super::DifferentialEquation,
     super::PlantPort,
     super::Request,
     super::Sensor,

@@ -7,6 +7,7 @@ mod activity;
 mod commands;
 mod coupler;
 mod dataset;
+mod differential;
 mod elastic;
 mod elements;
 mod force;
@@ -29,6 +30,7 @@ pub use commands::{
 };
 pub use coupler::{CoupledFreedom, Coupler, Gear};
 pub use dataset::Dataset;
+pub use differential::DifferentialEquation;
 pub use elastic::{Beam, BeamDamping, Bushing, Field};
 pub use elements::{Element, Elements, Header};
 pub use force::{ForceDirection, SingleForce, SpringDamper};

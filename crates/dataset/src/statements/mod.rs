@@ -1,6 +1,7 @@
 //! The statements of the language: one table, and one reader for each that is simulated.
 
 mod coupler;
+mod differential;
 mod elastic;
 mod force;
 mod friction;

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::{
-    coupler, elastic, force, friction, joint, motion, part, request, sensor, settings, spline,
-    units, variable, vector_force,
+    coupler, differential, elastic, force, friction, joint, motion, part, request, sensor,
+    settings, spline, units, variable, vector_force,
 };
 use crate::keywords::Keyword;
 use crate::names::Name;
@@ -122,6 +122,12 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     read("SPLINE", "SPL", spline::KEYWORDS, spline::spline),
     read("VARIABLE", "VAR", variable::KEYWORDS, variable::variable),
     read(
+        "DIFF",
+        "DI",
+        differential::KEYWORDS,
+        differential::differential,
+    ),
+    read(
         "PINPUT",
         "PINP",
         variable::PORT_KEYWORDS,
@@ -199,7 +205,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("ADAMS_BUSHING", "ADAMS_BUSHING"),
     unsupported("CONTACT", "CON"),
     unsupported("CVCV", "CVCV"),
-    unsupported("DIFF", "DI"),
     unsupported("FEMDATA", "FEM"),
     unsupported("FE_LOAD", "FE_L"),
     unsupported("FE_NODE", "FE_N"),

@@ -85,7 +85,10 @@ impl System {
             velocities[6 * place + 3..6 * place + 6]
                 .copy_from_slice(body.angular_velocity.as_slice());
         }
-        State::new(time, values)
+        let mut state = State::new(time, values);
+        let states = self.first_states();
+        state.extend(&states, self.bristle_count(), self.work_count());
+        state
     }
 
     /// Brings `state` onto the constraints with as little change as needed, finds redundant

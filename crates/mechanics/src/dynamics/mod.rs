@@ -68,6 +68,9 @@ const GROWTHS: usize = 5;
 /// Steps that are solved as I3 once SI2 has failed, so that a nearly singular position is behind.
 const INDEX3_STEPS: usize = 10;
 
+/// Magnitude below which differential states count as small, in their own unit.
+const SMALLEST_STATE: f64 = 1e-6;
+
 /// How an attempt at a step uses the Newton matrix.
 ///
 /// Attempts go from cheap to sure. The friction law has a kink in the velocity at rest where there is
@@ -138,6 +141,8 @@ pub(crate) struct Dynamics {
     /// Errors of the bristle deflections that a step may make.
     bristle_errors: Vec<f64>,
     quadrature: Quadrature,
+    /// Largest magnitude of each differential state so far.
+    state_scales: Vec<f64>,
     state: State,
     shift: Vec<f64>,
     impulses: Vec<f64>,
@@ -154,13 +159,20 @@ pub(crate) struct Dynamics {
     rate: f64,
 }
 
+/// Raises scales to the magnitudes of values.
+fn raise(scales: &mut [f64], values: &[f64]) {
+    for (scale, value) in scales.iter_mut().zip(values) {
+        *scale = scale.max(value.abs());
+    }
+}
+
 impl Dynamics {
     pub(crate) fn new(system: System, scales: Scales) -> Self {
-        let n = system.velocity_count();
-        let size = n + system.row_count();
-        let bodies = system.model.bodies.len();
-        let mut state = State::new(0.0, vec![0.0; (POSITIONS + VELOCITIES) * bodies]);
-        state.extend(system.bristle_count(), system.work_count());
+        let n = system.rate_count();
+        let moving = system.velocity_count();
+        let size = system.unknown_count();
+        let multipliers = system.multiplier_count();
+        let state = system.given_state(0.0);
         Self {
             formulation: Formulation::Si2,
             present: Formulation::Si2,
@@ -169,15 +181,16 @@ impl Dynamics {
             newton_iterations: 4,
             scales,
             work: Work::default(),
-            multipliers: vec![0.0; system.row_count()],
+            multipliers: vec![0.0; multipliers],
             previous: system.history.frictions.clone(),
             powers: vec![0.0; system.work_count()],
             bristle_errors: vec![0.0; system.bristle_count()],
             quadrature: Quadrature::new(system.work_count()),
             state,
-            shift: vec![0.0; n],
-            impulses: vec![0.0; system.row_count()],
-            trial: vec![0.0; system.row_count()],
+            state_scales: vec![SMALLEST_STATE; n - moving],
+            shift: vec![0.0; moving],
+            impulses: vec![0.0; multipliers],
+            trial: vec![0.0; multipliers],
             change: vec![0.0; n],
             force: vec![0.0; n],
             momentum: vec![0.0; n],
@@ -203,6 +216,12 @@ impl Dynamics {
         self.rate = 0.0;
     }
 
+    /// Raises the scales to the velocities and differential states of `state`.
+    pub(crate) fn observe(&mut self, state: &State) {
+        self.scales.observe(state.velocities());
+        raise(&mut self.state_scales, state.states());
+    }
+
     /// Begins the works anew at an instant.
     pub(crate) fn start_works(&mut self, time: f64, works: &[f64], powers: &[f64]) {
         self.quadrature.start(time, works, powers);
@@ -222,15 +241,14 @@ impl Dynamics {
     /// Right-hand sides at the state evaluated last.
     fn residual(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
         self.work.residuals += 1;
-        let n = self.system.velocity_count();
+        let n = self.system.rate_count();
         let gamma = step.gamma;
-        let past = &step.history[POSITIONS * (n / VELOCITIES)..self.state.motions()];
-        for k in 0..n {
-            self.change[k] = self.state.velocities()[k] - past[k];
-        }
+        self.take_change(step);
         for (trial, impulse) in self.trial.iter_mut().zip(&self.impulses) {
             *trial = impulse / gamma;
         }
+        self.system
+            .set_solution(&self.change, 1.0 / gamma, &self.trial);
         self.system.mass_times(&self.change, &mut self.momentum);
         self.system.forces(&self.trial, &mut self.force);
         for k in 0..n {
@@ -247,6 +265,11 @@ impl Dynamics {
                 }
                 (Level::Acceleration, _) => gamma * evaluated.acceleration - of(&self.change),
             };
+        }
+        let lacks = &mut self.right[n + self.system.row_count()..];
+        self.system.algebraic_residual(lacks);
+        for lack in lacks {
+            *lack *= gamma;
         }
         if self.right.iter().all(|r| r.is_finite()) {
             Ok(())
@@ -270,13 +293,17 @@ impl Dynamics {
                 norm = norm.max(self.position_right[k].abs() / unit);
             }
         }
+        for (scale, change) in self.state_scales.iter().zip(&self.right[n..]) {
+            norm = norm.max(change.abs() / scale);
+        }
         norm / self.tolerance
     }
 
     /// Newton's iteration from the loaded state, with the matrix used as `usage` says.
     fn newton(&mut self, step: &bdf::Step<'_>, usage: MatrixUse) -> Result<(), Failure> {
         let gamma = step.gamma;
-        let n = self.system.velocity_count();
+        let moving = self.system.velocity_count();
+        let n = self.system.rate_count();
         let rows = match self.present {
             Formulation::I3 => Rows::Position,
             Formulation::Si2 => Rows::Velocity,
@@ -316,21 +343,23 @@ impl Dynamics {
             match self.present {
                 Formulation::Si2 => {
                     self.correct_positions(gamma);
-                    for k in 0..n {
+                    for k in 0..moving {
                         self.state.velocities_mut()[k] += self.right[k];
                         self.shift[k] += self.position_right[k];
                     }
                     self.positions_from_velocities(step)?;
                 }
                 Formulation::I3 => {
-                    for k in 0..n {
+                    for k in 0..moving {
                         self.change[k] = gamma * self.right[k];
                     }
-                    let change = std::mem::take(&mut self.change);
-                    self.state.displace(&change);
-                    self.change = change;
+                    self.state.displace(&self.change[..moving]);
                     self.velocities_from_positions(step);
                 }
+            }
+            let states = self.state.states_mut().iter_mut();
+            for (state, change) in states.zip(&self.right[moving..n]) {
+                *state += change;
             }
             let norm = self.correction_norm(gamma);
             let size = |k: &usize| self.right[*k].abs();
@@ -364,9 +393,22 @@ impl Dynamics {
         Err(Failure::NotConverged { unknown: worst })
     }
 
+    /// Change of velocities and differential states against the past: `γ` times their rates.
+    fn take_change(&mut self, step: &bdf::Step<'_>) {
+        let rates = self.state.rate_range();
+        let past = &step.history[rates.clone()];
+        let values = self.state.values[rates].iter().zip(past);
+        for (change, (now, past)) in self.change.iter_mut().zip(values) {
+            *change = now - past;
+        }
+    }
+
     /// What follows from the solved velocities and reactions: bristle deflections and works.
     fn complete(&mut self, step: &bdf::Step<'_>) {
         self.system.evaluate(&self.state, false);
+        self.take_change(step);
+        self.system
+            .set_solution(&self.change, 1.0 / step.gamma, &self.multipliers);
         let range = self.state.bristle_range();
         let deflections = &mut self.state.values[range];
         self.system
@@ -489,6 +531,17 @@ impl bdf::System for Dynamics {
                 norm = norm.max(d.abs() / unit);
             }
         }
+        let states = &difference[self.state.state_range()];
+        for ((d, scale), now) in states
+            .iter()
+            .zip(&self.state_scales)
+            .zip(self.state.states())
+        {
+            norm = norm.max(d.abs() / scale.max(now.abs()));
+            if d.is_nan() {
+                return f64::NAN;
+            }
+        }
         norm /= self.tolerance;
         let bristles = &difference[self.state.bristle_range()];
         for (d, error) in bristles.iter().zip(&self.bristle_errors) {
@@ -507,5 +560,6 @@ impl bdf::System for Dynamics {
         self.system.accept_frictions(&self.multipliers, step.size);
         self.system.remember_angles();
         self.scales.observe(self.state.velocities());
+        raise(&mut self.state_scales, self.state.states());
     }
 }

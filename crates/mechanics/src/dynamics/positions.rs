@@ -64,8 +64,8 @@ impl Dynamics {
 
     /// Corrects the positions where the velocities' correction leaves `g(x) ≠ 0`.
     pub(super) fn correct_positions(&mut self, gamma: f64) {
-        let n = self.system.velocity_count();
-        self.position_right[..n].fill(0.0);
+        let n = self.system.rate_count();
+        self.position_right.fill(0.0);
         for (row, &place) in self.system.rows.iter().enumerate() {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];

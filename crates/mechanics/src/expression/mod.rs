@@ -26,6 +26,12 @@ pub enum Input {
     Time,
     /// A measure, by its place in [`crate::model::Model::measures`].
     Measure(usize),
+    /// A differential state, by its place in [`crate::model::Model::states`].
+    State(usize),
+    /// The rate of a differential state.
+    StateRate(usize),
+    /// An algebraic variable, by its place in [`crate::model::Model::algebraics`].
+    Algebraic(usize),
     /// A result of the solution (a reaction or friction component), by the caller's number. Only
     /// outputs may read one.
     Result(usize),

@@ -69,7 +69,7 @@ impl Simulation {
             Formulation::I3 => INDEX3_SHARE * settings.error,
         };
         dynamics.newton_iterations = settings.newton_iterations;
-        dynamics.scales.observe(self.state.velocities());
+        dynamics.observe(&self.state);
         dynamics.multipliers.copy_from_slice(&self.multipliers);
         bdf.set_settings(limits);
         let slope = self.slope();
@@ -214,8 +214,8 @@ impl Simulation {
         self.relax_bristles(bdf, time);
         // The reactions of the step are near: bristles may know several solutions.
         self.multipliers.copy_from_slice(&dynamics.multipliers);
-        let velocities = self.state.velocity_range();
-        bdf.interpolate_slope(time, velocities, &mut self.accelerations);
+        let rates = self.state.rate_range();
+        bdf.interpolate_slope(time, rates, &mut self.accelerations);
         for body in 0..self.state.bodies() {
             let place = POSITIONS * body + 3;
             let q = self.state.orientation(body).normalized();
@@ -295,6 +295,10 @@ impl Simulation {
         let velocities = later.state.velocities_mut().iter_mut();
         for (u, a) in velocities.zip(&self.accelerations) {
             *u += ahead * a;
+        }
+        let rates = &self.accelerations[self.system.velocity_count()..];
+        for (y, rate) in later.state.states_mut().iter_mut().zip(rates) {
+            *y += ahead * rate;
         }
         instant
             .accelerations(

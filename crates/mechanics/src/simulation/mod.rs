@@ -25,7 +25,9 @@ use crate::system::System;
 pub struct Simulation {
     system: System,
     state: State,
+    /// Rates of velocities and of differential states.
     accelerations: Vec<f64>,
+    /// Multipliers and algebraic variables.
     multipliers: Vec<f64>,
     scales: Scales,
     statistics: Statistics,
@@ -70,14 +72,13 @@ impl Simulation {
             length: system.length_scale(),
             rate: 1.0 / second,
         };
-        let mut state = system.given_state(0.0);
-        state.extend(system.bristle_count(), system.work_count());
+        let state = system.given_state(0.0);
         Self {
             bristle_past: vec![0.0; system.bristle_count()],
             bristle_gamma: 0.0,
             state,
-            accelerations: vec![0.0; system.velocity_count()],
-            multipliers: Vec::new(),
+            accelerations: system.first_rates(),
+            multipliers: system.first_multipliers(),
             scales,
             statistics: Statistics::default(),
             engine: None,
@@ -91,7 +92,7 @@ impl Simulation {
     /// [`AssemblyError`] where joints contradict one another.
     pub fn assemble(&mut self) -> Result<Assembly, AssemblyError> {
         let assembly = self.system.assemble_initial(&mut self.state)?;
-        self.multipliers = vec![0.0; self.system.row_count()];
+        self.multipliers = self.system.first_multipliers();
         self.engine = None;
         Ok(assembly)
     }
@@ -132,6 +133,7 @@ impl Simulation {
             resting.filter(|element| !free(element)).collect()
         };
         let same = constraints(&model) == constraints(self.model());
+        let rows = self.system.row_count();
         let same_active = model.inactive == self.model().inactive;
         if !(self.system.replace_model(model) && same_active) {
             self.engine = None;
@@ -140,7 +142,9 @@ impl Simulation {
             return Ok(None);
         }
         let assembly = self.system.assemble_again(&mut self.state)?;
+        let algebraics = self.multipliers.split_off(rows);
         self.multipliers = vec![0.0; self.system.row_count()];
+        self.multipliers.extend(algebraics);
         Ok(Some(assembly))
     }
 
@@ -148,7 +152,8 @@ impl Simulation {
     pub fn set_state(&mut self, state: State, creep: &[[f64; 3]]) {
         self.state = state;
         let (bristles, works) = (self.system.bristle_count(), self.system.work_count());
-        self.state.extend(bristles, works);
+        let states = self.system.first_states();
+        self.state.extend(&states, bristles, works);
         self.freeze_bristles();
         self.system.evaluate(&self.state, false);
         self.system.start_history();

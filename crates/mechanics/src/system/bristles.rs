@@ -119,7 +119,7 @@ impl System {
             let (element, i, j) = self.friction(place, multipliers);
             let friction = &self.model.frictions[place];
             let end = StepEnd {
-                time: self.time,
+                time: self.inputs.time,
                 size,
                 deflection: element.deflection,
                 load: friction.surface_load(&element.values.load),

@@ -30,14 +30,15 @@ impl System {
     /// Brings positions, constraints and measures up to date with `state`; with `derivatives` also
     /// what [`System::assemble`] needs.
     pub(crate) fn evaluate(&mut self, state: &State, derivatives: bool) {
-        self.time = state.time;
+        self.inputs.time = state.time;
+        self.inputs.states.copy_from_slice(state.states());
         for (place, body) in self.bodies.iter_mut().enumerate() {
             body.update(state, place, &self.model.bodies[place]);
         }
         for place in 0..self.model.measures.len() {
             let order = self.model.measures[place].quantity.order();
             if self.needed[place] && order != Order::Acceleration {
-                self.measures[place] = self.measure_value(place);
+                self.inputs.measures[place] = self.measure_value(place);
             }
         }
         if derivatives || self.constraints.iter().any(|c| c.form == Form::Function) {
@@ -91,7 +92,7 @@ impl System {
                 .run(&mut self.jets, |input| {
                     debug_assert_eq!(input, Input::Time, "motions depend on time only");
                     Jet {
-                        value: self.time,
+                        value: self.inputs.time,
                         rate: 1.0,
                         acceleration: 0.0,
                     }
@@ -154,9 +155,8 @@ impl System {
             return;
         };
         let function = &self.model.constraints[general].function;
-        let time = self.time;
-        let measures = &self.measures;
-        let value = function.evaluate(&mut self.registers, |input| read(input, time, measures));
+        let inputs = &self.inputs;
+        let value = function.evaluate(&mut self.registers, |input| inputs.read(input));
         let evaluated = &mut self.evaluated[place];
         evaluated.error = value;
         for block in &mut evaluated.jacobian {
@@ -185,15 +185,16 @@ impl System {
                     .markers()
                     .map(|m| MarkerFrame::new(&model.markers[m], frames));
                 let mut jet = measure::jet(model.measures[measure].quantity, [&i, &j, &k, &l]);
-                jet.value = measures[measure];
+                jet.value = inputs.measures[measure];
                 jet
             }
             Input::Time => Jet {
-                value: time,
+                value: inputs.time,
                 rate: 1.0,
                 acceleration: 0.0,
             },
-            Input::Result(_) => Jet {
+            // Constraints read displacements and time only.
+            Input::State(_) | Input::StateRate(_) | Input::Algebraic(_) | Input::Result(_) => Jet {
                 value: f64::NAN,
                 rate: 0.0,
                 acceleration: 0.0,
@@ -224,15 +225,6 @@ impl System {
 fn nearest_turn(value: f64, reference: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     value + turn * ((reference - value) / turn).round()
-}
-
-pub(super) fn read(input: Input, time: f64, measures: &[f64]) -> f64 {
-    match input {
-        Input::Time => time,
-        Input::Measure(measure) => measures[measure],
-        // Results are refused in equations when the model is built.
-        Input::Result(_) => f64::NAN,
-    }
 }
 
 fn spread(sides: &[Option<usize>; 2], local: &Local, blocks: &mut [[f64; 6]]) {

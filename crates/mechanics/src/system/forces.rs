@@ -3,14 +3,13 @@
 use nalgebra::Vector3;
 
 use super::System;
-use super::evaluation::read;
 use super::single_force::{Frames, direction};
 use crate::equation::Local;
-use crate::expression::Program;
-use crate::model::{Element, SingleForce};
+use crate::model::{Element, Form, SingleForce};
 
 impl System {
-    /// `M w` in ground axes: mass and inertia times six numbers a body.
+    /// `M w` in ground axes: mass and inertia times six numbers a body, then the differential states,
+    /// whose mass is one, or zero where an implicit function determines the rate.
     pub(crate) fn mass_times(&self, w: &[f64], out: &mut [f64]) {
         for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
             let w = &w[6 * place..6 * place + 6];
@@ -21,9 +20,17 @@ impl System {
             let turn = frame.inertia * Vector3::new(w[3], w[4], w[5]);
             out[3..].copy_from_slice(turn.as_slice());
         }
+        let first = self.velocity_count();
+        for (place, state) in self.model.states.iter().enumerate() {
+            out[first + place] = match state.form {
+                Form::Explicit => w[first + place],
+                Form::Implicit => 0.0,
+            };
+        }
     }
 
-    /// Sum of all forces `Q + f + Gᵀλ` at the state evaluated last.
+    /// Sum of all forces `Q + f + Gᵀλ` at the state evaluated last, then the functions of the
+    /// differential states.
     pub(crate) fn forces(&mut self, multipliers: &[f64], out: &mut [f64]) {
         for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
             let weight = body.mass * self.model.gravity;
@@ -59,6 +66,8 @@ impl System {
             let (element, i, j) = self.friction(place, multipliers);
             self.add_local(&[i.body, j.body], &element.force, out);
         }
+        let first = self.velocity_count();
+        self.state_functions(&mut out[first..]);
     }
 
     fn add_local(&self, sides: &[Option<usize>; 2], local: &Local, out: &mut [f64]) {
@@ -86,9 +95,9 @@ impl System {
 
     /// Value of a single-component force at the state evaluated last.
     pub(crate) fn force_value(&mut self, place: usize) -> f64 {
-        let (time, measures) = (self.time, &self.measures);
-        let function: &Program = &self.model.forces[place].function;
-        function.evaluate(&mut self.registers, |input| read(input, time, measures))
+        self.model.forces[place]
+            .function
+            .evaluate(&mut self.registers, |input| self.inputs.read(input))
     }
 
     /// Generalised force of a single-component force of one unit, for outputs.

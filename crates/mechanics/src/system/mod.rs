@@ -8,19 +8,25 @@
 //! G u = rate,   G u̇ = acceleration             constraints, differentiated
 //! ```
 //!
+//! System elements add differential states `y` to the velocities and algebraic variables `w` to the
+//! multipliers (`elements.rs`); forces may read them, too. Rates are `(u̇, ẏ)`, and what is called
+//! multipliers below are `(λ, w)`: both are determined by the instant alone and are stepped alike.
+//!
 //! [`System::evaluate`] brings everything that depends on time and state alone up to date, and
-//! [`System::assemble`] builds the Newton matrix over `(δu, δλ̂)` that all solvers share,
+//! [`System::assemble`] builds the Newton matrix over `(δu, δy, δλ̂, δŵ)` that all solvers share,
 //!
 //! ```text
 //! [ M − γ ∂(Q+f)/∂u − γ² ∂(Q+f+Gᵀλ)/∂x    −Gᵀ − ∂f/∂λ ]
-//! [ G  (+ γ ∂(G u)/∂x)                           0       ]      λ̂ = γλ, δx = γ δu
+//! [ G  (+ γ ∂(G u)/∂x)                           0       ]      λ̂ = γλ, ŵ = γw, δx = γ δu
 //! ```
 //!
 //! At `γ = 0` it is the matrix of the instantaneous accelerations and reactions.
 
 mod bristles;
+mod elements;
 mod evaluation;
 mod forces;
+mod inputs;
 mod newton_matrix;
 mod reactions;
 mod single_force;
@@ -28,12 +34,13 @@ mod works;
 
 use crate::constraint::{Constraint, Evaluated, Form, Owner, list};
 use crate::equation::Equation;
-use crate::expression::Input;
+use crate::expression::{Input, Program};
 use crate::joint_friction::{BristlePast, Contribution, Memory, Share};
 use crate::measure::Quantity;
-use crate::model::{Element, Model};
+use crate::model::{Definition, Element, Model};
 use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
+use inputs::Inputs;
 pub(crate) use newton_matrix::Weights;
 
 /// Which equations the constraint rows of the Newton matrix belong to.
@@ -71,12 +78,11 @@ pub struct System {
     pub(crate) history: History,
     pub(crate) bodies: Vec<BodyFrame>,
     pub(crate) evaluated: Vec<Evaluated>,
-    measures: Vec<f64>,
+    inputs: Inputs,
     /// Measures that the equations (not only outputs) read.
     needed: Vec<bool>,
     measure_bodies: Vec<Vec<usize>>,
     measure_slopes: Vec<Vec<[f64; 12]>>,
-    time: f64,
     registers: Vec<f64>,
     adjoints: Vec<f64>,
     jets: Vec<Jet>,
@@ -99,6 +105,7 @@ impl System {
         let mut needed = vec![false; model.measures.len()];
         let functions = model.forces.iter().map(|f| &f.function);
         let functions = functions.chain(model.constraints.iter().map(|c| &c.function));
+        let functions = functions.chain(element_functions(&model));
         let mut longest = 0;
         for function in functions.chain(model.motions.iter().map(|m| &m.function)) {
             longest = longest.max(function.len());
@@ -128,7 +135,13 @@ impl System {
         };
         let mut system = Self {
             bodies: vec![BodyFrame::at_rest(); model.bodies.len()],
-            measures: vec![0.0; model.measures.len()],
+            inputs: Inputs {
+                time: 0.0,
+                measures: vec![0.0; model.measures.len()],
+                states: model.states.iter().map(|state| state.start).collect(),
+                rates: vec![0.0; 6 * model.bodies.len() + model.states.len()],
+                algebraics: model.algebraics.iter().map(|w| w.start).collect(),
+            },
             measure_slopes: measure_bodies
                 .iter()
                 .map(|b| vec![[0.0; 12]; b.len()])
@@ -142,7 +155,6 @@ impl System {
             history,
             constraints,
             evaluated,
-            time: 0.0,
             registers: vec![0.0; longest],
             adjoints: vec![0.0; longest],
             jets: vec![
@@ -170,6 +182,35 @@ impl System {
     #[must_use]
     pub fn velocity_count(&self) -> usize {
         6 * self.model.bodies.len()
+    }
+
+    /// Number of velocities and differential states.
+    #[must_use]
+    pub fn rate_count(&self) -> usize {
+        self.velocity_count() + self.model.states.len()
+    }
+
+    /// Number of multipliers and algebraic variables.
+    #[must_use]
+    pub fn multiplier_count(&self) -> usize {
+        self.rows.len() + self.model.algebraics.len()
+    }
+
+    /// Whether there are differential states or algebraic variables.
+    pub(crate) fn has_elements(&self) -> bool {
+        self.unknown_count() > self.velocity_count() + self.rows.len()
+    }
+
+    /// Places of differential states and algebraic variables among the unknowns.
+    pub(crate) fn element_places(&self) -> impl Iterator<Item = usize> + use<> {
+        let states = self.velocity_count()..self.rate_count();
+        states.chain(self.rate_count() + self.rows.len()..self.unknown_count())
+    }
+
+    /// Number of unknowns: rates, then multipliers.
+    #[must_use]
+    pub fn unknown_count(&self) -> usize {
+        self.rate_count() + self.multiplier_count()
     }
 
     /// Number of constraint equations in force.
@@ -227,14 +268,18 @@ impl System {
             model
                 .forces
                 .iter()
-                .flat_map(|force| force.function.inputs())
+                .map(|force| &force.function)
+                .chain(element_functions(model))
+                .flat_map(|function| function.inputs())
                 .collect()
         };
         let same_pattern = inputs(&fresh.model) == inputs(&self.model);
         let same = fresh.constraints.len() == self.constraints.len()
             && fresh.bodies.len() == self.bodies.len()
             && fresh.model.measures.len() == self.model.measures.len()
-            && fresh.model.frictions.len() == self.model.frictions.len();
+            && fresh.model.frictions.len() == self.model.frictions.len()
+            && fresh.model.states.len() == self.model.states.len()
+            && fresh.model.algebraics.len() == self.model.algebraics.len();
         assert!(
             same,
             "a changed model must keep the numbering of its equations"
@@ -242,7 +287,7 @@ impl System {
         let active: Vec<bool> = self.constraints.iter().map(|c| c.row.is_some()).collect();
         let before = std::mem::replace(self, fresh);
         self.bodies = before.bodies;
-        self.time = before.time;
+        self.inputs = before.inputs;
         self.set_active(&active);
         self.history = before.history;
         // Friction that was at rest begins anew.
@@ -271,7 +316,7 @@ impl System {
         let friction = &self.model.frictions[place];
         let joint = &self.model.joints[friction.joint];
         let (i, j) = (self.marker(joint.i), self.marker(joint.j));
-        Memory::at(friction, self.time, &i, &j)
+        Memory::at(friction, self.inputs.time, &i, &j)
     }
 
     /// Says whether the instants that follow are static ones.
@@ -289,6 +334,37 @@ impl System {
         }
     }
 
+    /// First guesses of multipliers and algebraic variables.
+    pub(crate) fn first_multipliers(&self) -> Vec<f64> {
+        let mut multipliers = vec![0.0; self.rows.len()];
+        multipliers.extend(self.model.algebraics.iter().map(|w| w.start));
+        multipliers
+    }
+
+    /// First guesses of accelerations and rates of states.
+    pub(crate) fn first_rates(&self) -> Vec<f64> {
+        let mut rates = vec![0.0; self.velocity_count()];
+        rates.extend(self.model.states.iter().map(|state| state.start_rate));
+        rates
+    }
+
+    /// Values of the differential states at the start.
+    pub(crate) fn first_states(&self) -> Vec<f64> {
+        let states = self.model.states.iter();
+        states.map(|state| state.start).collect()
+    }
+
+    /// Registers and adjoints for a while.
+    fn take_scratch(&mut self) -> (Vec<f64>, Vec<f64>) {
+        let registers = std::mem::take(&mut self.registers);
+        (registers, std::mem::take(&mut self.adjoints))
+    }
+
+    fn return_scratch(&mut self, registers: Vec<f64>, adjoints: Vec<f64>) {
+        self.registers = registers;
+        self.adjoints = adjoints;
+    }
+
     /// Takes over the present rotations as the last accepted ones.
     pub(crate) fn remember_angles(&mut self) {
         for place in 0..self.model.measures.len() {
@@ -297,6 +373,16 @@ impl System {
             }
         }
     }
+}
+
+/// The functions of the system elements.
+fn element_functions(model: &Model) -> impl Iterator<Item = &Program> {
+    let states = model.states.iter().map(|state| &state.function);
+    let algebraics = model.algebraics.iter().map(|variable| {
+        let Definition::Function(_, function) = &variable.definition;
+        function
+    });
+    states.chain(algebraics)
 }
 
 fn reaction_of(constraints: &[Constraint], joint: usize) -> Vec<Contribution> {

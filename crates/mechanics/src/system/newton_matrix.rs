@@ -7,7 +7,6 @@ use super::single_force::{ByRotation, direction, direction_by_frame, direction_s
 use super::{Rows, System};
 use crate::constraint::Form;
 use crate::equation::{Local, LocalMatrix};
-use crate::expression::Input;
 use crate::joint_friction::{Share, Slopes};
 use crate::model::{Element, Level};
 use crate::rotation::skew;
@@ -21,6 +20,10 @@ pub(crate) struct Weights {
     pub(crate) velocity: f64,
     /// Derivatives by position.
     pub(crate) position: f64,
+    /// Derivatives by differential states.
+    pub(crate) state: f64,
+    /// Derivatives by rates of velocities and states.
+    pub(crate) rate: f64,
 }
 
 impl Weights {
@@ -30,15 +33,20 @@ impl Weights {
             mass: 1.0,
             velocity: gamma,
             position: gamma * gamma,
+            state: gamma,
+            rate: 1.0,
         }
     }
 
-    /// Those of an equilibrium: the stiffness, with a part of mass and damping added.
+    /// Those of an equilibrium, where rates are zero: the stiffness, with a part of mass and damping
+    /// added.
     pub(crate) fn equilibrium(stability: f64) -> Self {
         Self {
             mass: stability,
             velocity: stability,
             position: 1.0,
+            state: 1.0,
+            rate: 0.0,
         }
     }
 }
@@ -81,7 +89,7 @@ impl System {
     ) {
         matrix.start();
         self.assemble_bodies(weights, w, matrix);
-        let n = self.velocity_count();
+        let n = self.rate_count();
         for (row, &place) in self.rows.iter().enumerate() {
             let evaluated = &self.evaluated[place];
             let constraint = &self.constraints[place];
@@ -108,6 +116,7 @@ impl System {
             }
         }
         self.assemble_forces(weights, matrix);
+        self.assemble_elements(&weights, matrix);
     }
 
     fn assemble_bodies(&self, weights: Weights, w: &[f64], matrix: &mut Matrix) {
@@ -135,13 +144,15 @@ impl System {
     }
 
     fn assemble_forces(&mut self, weights: Weights, matrix: &mut Matrix) {
+        let (mut registers, mut adjoints) = self.take_scratch();
         for place in 0..self.model.forces.len() {
             if !self.model.is_active(Element::Force(place)) {
                 continue;
             }
             let frames = self.force_frames(&self.model.forces[place]);
-            let value = self.force_value(place);
             let force = &self.model.forces[place];
+            let function = &force.function;
+            let value = function.evaluate(&mut registers, |input| self.inputs.read(input));
             let direction = direction(force.kind, &frames);
             let turning = direction_stiffness(force.kind, &frames);
             let sides = frames.sides();
@@ -152,34 +163,23 @@ impl System {
             {
                 self.add_by_rotation(&sides, carrier, &change, scale, matrix);
             }
-            force
-                .function
-                .gradient(&self.registers, &mut self.adjoints, |input, slope| {
-                    let Input::Measure(measure) = input else {
-                        return;
-                    };
-                    let motions = self.measure_bodies[measure]
-                        .iter()
-                        .zip(&self.measure_slopes[measure]);
-                    for (&body, slopes) in motions {
-                        for k in 0..6 {
-                            let change = slope
-                                * (weights.position * slopes[k] + weights.velocity * slopes[6 + k]);
-                            for (side, on) in sides.iter().enumerate() {
-                                let Some(on) = *on else { continue };
-                                for r in 0..6 {
-                                    let entry = -direction[6 * side + r] * change;
-                                    matrix.add(6 * on + r, 6 * body + k, entry);
-                                }
-                            }
+            function.gradient(&registers, &mut adjoints, |input, slope| {
+                self.columns(input, slope, &weights, |column, change| {
+                    for (side, on) in sides.iter().enumerate() {
+                        let Some(on) = *on else { continue };
+                        for r in 0..6 {
+                            let entry = -direction[6 * side + r] * change;
+                            matrix.add(6 * on + r, column, entry);
                         }
                     }
                 });
+            });
         }
+        self.return_scratch(registers, adjoints);
     }
 
     fn assemble_frictions(&self, weights: Weights, multipliers: &[f64], matrix: &mut Matrix) {
-        let n = self.velocity_count();
+        let n = self.rate_count();
         for place in 0..self.model.frictions.len() {
             if !self.friction_acts(place) {
                 continue;

@@ -10,7 +10,7 @@ use super::results::ResultSource;
 use super::{Lowering, composite};
 
 /// What a function may read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Reads {
     /// TIME only: motions.
     Time,
@@ -179,6 +179,13 @@ impl Compiler {
                 Err(self.refuse_order(lowering, call))
             };
         }
+        if let Some(input) = state_of(lowering, function, arguments) {
+            return if self.reads >= Reads::Velocities {
+                Ok(self.program.push(Operation::Input(input)))
+            } else {
+                Err(self.refuse_order(lowering, call))
+            };
+        }
         if let Some(source) = ResultSource::of_call(lowering, function, arguments) {
             if self.reads != Reads::Everything {
                 return Err(self.refuse_order(lowering, call));
@@ -331,6 +338,17 @@ fn variable_of(lowering: &Lowering, call: &Expr) -> Option<u32> {
     };
     let number = arguments.get(1)?.as_id()?.checked_sub(1)?;
     port.variables.get(number as usize).copied()
+}
+
+/// What DIF and DIF1 read.
+fn state_of(lowering: &Lowering, function: Function, arguments: &[Expr]) -> Option<Input> {
+    let input = match function {
+        Function::Dif => Input::State,
+        Function::Dif1 => Input::StateRate,
+        _ => return None,
+    };
+    let id = arguments.first()?.as_id()?;
+    lowering.dataset.differentials.position(id).map(input)
 }
 
 fn variables_of(lowering: &Lowering, root: &Expr) -> Vec<u32> {

@@ -10,6 +10,7 @@ mod bodies;
 mod composite;
 mod couplers;
 mod elastic;
+mod elements;
 mod expression;
 mod forces;
 mod frame;
@@ -112,6 +113,7 @@ pub(crate) fn lower(
     lowering.couplers(&mut model);
     lowering.motions(&mut model);
     lowering.forces(&mut model);
+    lowering.differentials(&mut model);
     let outputs = lowering.outputs();
     model.inactive = lowering.inactive();
     let Lowering {

@@ -1,0 +1,129 @@
+//! The equations of system elements: right-hand sides and their derivatives.
+//!
+//! In the unknowns of a step, `δy` of a state and `γ δw` of a variable (see [`super`]),
+//!
+//! ```text
+//! ẏ = f:   δy − γ δf        0 = f:   −γ δf
+//! w = f:   γ δw − γ δf      0 = f:   −γ δf
+//! ```
+//!
+//! In an equilibrium states rest, `0 = f`, or keep their value, `δy = 0`.
+
+use numerics::linear::Matrix;
+
+use super::System;
+use super::newton_matrix::Weights;
+use crate::expression::Program;
+use crate::model::{Definition, Form, Label};
+
+impl System {
+    /// `f` of the differential states; zero for one that a static solution holds.
+    pub(super) fn state_functions(&mut self, out: &mut [f64]) {
+        for (place, out) in out.iter_mut().enumerate() {
+            *out = if self.holds(place) {
+                0.0
+            } else {
+                self.model.states[place]
+                    .function
+                    .evaluate(&mut self.registers, |input| self.inputs.read(input))
+            };
+        }
+    }
+
+    /// Whether a state keeps its value at the present kind of instant.
+    fn holds(&self, state: usize) -> bool {
+        self.statics && self.model.states[state].held_in_statics
+    }
+
+    /// What the algebraic variables lack: `f − w`, or `f`.
+    pub(crate) fn algebraic_residual(&mut self, out: &mut [f64]) {
+        for (place, out) in out.iter_mut().enumerate() {
+            let Definition::Function(form, function) = &self.model.algebraics[place].definition;
+            let value = function.evaluate(&mut self.registers, |input| self.inputs.read(input));
+            *out = match form {
+                Form::Explicit => value - self.inputs.algebraics[place],
+                Form::Implicit => value,
+            };
+        }
+    }
+
+    /// The first system element whose function is not a number.
+    pub(crate) fn element_not_a_number(&mut self) -> Option<&Label> {
+        let states = self.model.states.iter();
+        let states = states.map(|state| (&state.label, &state.function));
+        let algebraics = self.model.algebraics.iter().map(|variable| {
+            let Definition::Function(_, function) = &variable.definition;
+            (&variable.label, function)
+        });
+        let (registers, inputs) = (&mut self.registers, &self.inputs);
+        states.chain(algebraics).find_map(|(label, function)| {
+            let value = function.evaluate(registers, |input| inputs.read(input));
+            (!value.is_finite()).then_some(label)
+        })
+    }
+
+    /// Rows of the states and of the algebraic variables.
+    pub(super) fn assemble_elements(&mut self, weights: &Weights, matrix: &mut Matrix) {
+        let (mut registers, mut adjoints) = self.take_scratch();
+        let first = self.velocity_count();
+        for (place, state) in self.model.states.iter().enumerate() {
+            let row = first + place;
+            let (own, scale) = match state.form {
+                _ if self.holds(place) => (1.0, 0.0),
+                Form::Explicit => (weights.mass, -1.0),
+                Form::Implicit => (0.0, -1.0),
+            };
+            matrix.add(row, row, own);
+            let function = &state.function;
+            function.evaluate(&mut registers, |input| self.inputs.read(input));
+            self.add_row(
+                function,
+                row,
+                scale,
+                weights,
+                &registers,
+                &mut adjoints,
+                matrix,
+            );
+        }
+        let first = self.rate_count() + self.row_count();
+        for (place, variable) in self.model.algebraics.iter().enumerate() {
+            let row = first + place;
+            let Definition::Function(form, function) = &variable.definition;
+            let own = match form {
+                Form::Explicit => 1.0,
+                Form::Implicit => 0.0,
+            };
+            matrix.add(row, row, own);
+            function.evaluate(&mut registers, |input| self.inputs.read(input));
+            self.add_row(
+                function,
+                row,
+                -1.0,
+                weights,
+                &registers,
+                &mut adjoints,
+                matrix,
+            );
+        }
+        self.return_scratch(registers, adjoints);
+    }
+
+    /// Adds `scale` times the gradient of a function, evaluated in `registers`, to a row.
+    fn add_row(
+        &self,
+        function: &Program,
+        row: usize,
+        scale: f64,
+        weights: &Weights,
+        registers: &[f64],
+        adjoints: &mut [f64],
+        matrix: &mut Matrix,
+    ) {
+        function.gradient(registers, adjoints, |input, slope| {
+            self.columns(input, scale * slope, weights, |column, value| {
+                matrix.add(row, column, value);
+            });
+        });
+    }
+}
