@@ -1,9 +1,10 @@
 //! From text to a [`CommandFile`].
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::grammar::{Form, Grammar};
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Command, CommandFile, CommandKind, Simulate, SimulationKind};
-use crate::names::Name;
+use crate::names::{self, Match, Name};
 use crate::reader::{RawHead, find};
 use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
@@ -102,6 +103,21 @@ pub(crate) fn read_command(
     let kind = read(&mut reading)?;
     let echo = join(diagnostics.source, buffer);
     Some(Command { kind, echo, span })
+}
+
+/// The command that `word` names, with the form of its arguments.
+pub(crate) fn grammar(word: &str) -> Option<Grammar> {
+    let Match::One(index) = names::find(word, COMMANDS.iter().map(|rule| rule.name)) else {
+        return None;
+    };
+    let rule = &COMMANDS[index];
+    Some(Grammar {
+        name: rule.name.full,
+        form: match rule.action {
+            Action::Read(_, keywords, _) => Form::Table(keywords),
+            Action::Ignored(_) | Action::Unsupported => Form::Unknown,
+        },
+    })
 }
 
 /// The model and the output prefix on the first lines of an old command file.

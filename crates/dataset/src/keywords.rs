@@ -38,6 +38,16 @@ pub(crate) enum Kind {
     Unsupported(&'static str),
 }
 
+impl Kind {
+    /// Whether the value is one number or more.
+    pub(crate) const fn is_numeric(self) -> bool {
+        matches!(
+            self,
+            Self::Real | Self::Reals(..) | Self::RealsEach | Self::Integer | Self::Id | Self::Ids
+        )
+    }
+}
+
 /// One argument that a statement can have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Keyword {
@@ -79,7 +89,6 @@ pub(crate) struct Argument {
     /// The value, or the keyword where there is none.
     pub(crate) value_span: Span,
     /// The positions of keyword and value among the items of the statement.
-    #[expect(dead_code, reason = "what lays statements out comes next")]
     pub(crate) items: Range<usize>,
     /// `None` where it is wrong or without effect, which has been reported.
     pub(crate) value: Option<Value>,

@@ -25,10 +25,14 @@ mod change;
 mod checks;
 mod commands;
 mod diagnostic;
+mod document;
 mod expression;
+mod format;
+mod grammar;
 mod keywords;
 mod model;
 mod names;
+mod parts;
 mod reader;
 mod reading;
 mod source;
@@ -41,6 +45,7 @@ pub use diagnostic::{Code, Diagnostic, Location, Place, Replacement, Severity};
 pub use expression::{
     ArgumentKind, BinaryOperator, DEEPEST, ElementKind, Expr, Expression, Function,
 };
+pub use format::format;
 pub use model::*;
 pub use reader::read_dataset;
 pub use source::{LONGEST_SOURCE, Source, Span};

@@ -133,7 +133,11 @@ fn read_statement(
 }
 
 /// The name in the last `adams_view_name='...'` comment before a statement.
-fn view_name(tree: &SyntaxTree, statement: &StatementTokens, source: &Source) -> Option<String> {
+pub(crate) fn view_name(
+    tree: &SyntaxTree,
+    statement: &StatementTokens,
+    source: &Source,
+) -> Option<String> {
     let comment = source.slice(tree.tokens[statement.name_comment?].span());
     let (_, name) = comment.split_once("adams_view_name")?;
     let name = name.trim().strip_prefix('=')?.trim().strip_prefix('\'')?;
@@ -147,7 +151,7 @@ pub(crate) struct RawHead {
     /// The name and what belongs to it.
     pub(crate) head: Span,
     /// The item that should be the identifier.
-    number: Option<Item>,
+    pub(crate) number: Option<Item>,
     /// The position of the first item behind it.
     pub(crate) rest: usize,
 }

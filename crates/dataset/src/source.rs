@@ -36,10 +36,22 @@ impl Span {
 pub struct Source {
     name: String,
     text: String,
+    encoding: Encoding,
     line_starts: Vec<u32>,
     /// For every character of more than one byte its offset, once for each further byte.
     wide: Vec<u32>,
 }
+
+/// How the characters of a file are kept in bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Encoding {
+    Utf8,
+    /// UTF-8 with a byte order mark at its start.
+    MarkedUtf8,
+    Latin1,
+}
+
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// The longest file that is read, in bytes of decoded text (offsets are kept in 32 bits).
 pub const LONGEST_SOURCE: usize = u32::MAX as usize - 1;
@@ -73,12 +85,20 @@ impl Source {
                 "files of up to 4 GB are read",
             );
         }
-        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-        let text = match std::str::from_utf8(bytes) {
-            Ok(text) => text.to_owned(),
-            Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+        let (bytes, utf8) = match bytes.strip_prefix(BYTE_ORDER_MARK) {
+            Some(rest) => (rest, Encoding::MarkedUtf8),
+            None => (bytes, Encoding::Utf8),
         };
-        Ok(Self::from_text(name, text))
+        let (text, encoding) = match std::str::from_utf8(bytes) {
+            Ok(text) => (text.to_owned(), utf8),
+            Err(_) => {
+                let text = bytes.iter().map(|byte| char::from(*byte)).collect();
+                (text, Encoding::Latin1)
+            }
+        };
+        let mut source = Self::from_text(name, text);
+        source.encoding = encoding;
+        Ok(source)
     }
 
     /// A source made of a text that is in memory already, for example one command line.
@@ -101,8 +121,32 @@ impl Source {
         Self {
             name: name.to_string(),
             text,
+            encoding: Encoding::Utf8,
             line_starts,
             wide,
+        }
+    }
+
+    /// The bytes of `text` in the encoding of the file that this source was decoded from.
+    ///
+    /// ```
+    /// let source = dataset::Source::from_bytes("m.adm", b"\xB7")?;
+    /// assert_eq!(source.text(), "\u{B7}");
+    /// assert_eq!(source.encode(source.text()), b"\xB7");
+    /// # Ok::<(), Box<dataset::Diagnostic>>(())
+    /// ```
+    #[must_use]
+    pub fn encode(&self, text: &str) -> Vec<u8> {
+        let latin1 = |character: char| u8::try_from(u32::from(character)).ok();
+        match self.encoding {
+            Encoding::Utf8 => text.as_bytes().to_vec(),
+            Encoding::MarkedUtf8 => [BYTE_ORDER_MARK, text.as_bytes()].concat(),
+            // A text with other characters than those of the file is kept as UTF-8.
+            Encoding::Latin1 => text
+                .chars()
+                .map(latin1)
+                .collect::<Option<_>>()
+                .unwrap_or_else(|| text.as_bytes().to_vec()),
         }
     }
 

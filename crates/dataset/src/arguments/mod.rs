@@ -3,7 +3,7 @@
 mod free;
 mod values;
 
-pub(crate) use free::free;
+pub(crate) use free::{FreeArgument, free};
 
 use crate::diagnostic::{Code, Diagnostics};
 use crate::keywords::{Argument, Keyword, Kind, Value};

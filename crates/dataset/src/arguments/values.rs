@@ -7,6 +7,7 @@ use crate::keywords::{Kind, Value};
 use crate::names::{self, Match};
 use crate::source::Span;
 use crate::syntax::{TokenKind, join, number_value};
+use std::borrow::Cow;
 
 impl Parser<'_, '_> {
     /// Reads the value behind a keyword.
@@ -222,18 +223,26 @@ impl Parser<'_, '_> {
         if first == self.at {
             return Value::Text(String::new());
         }
-        let items = &self.items[first..self.at];
-        let text = if items.iter().any(|item| item.continues) {
-            join(self.source, items)
-        } else {
-            let span = items[0].span().to(items[items.len() - 1].span());
-            self.source.slice(span).to_string()
-        };
+        let text = self.written(first);
         let text = text.trim_end_matches('\\').trim_end();
         let quoted = text
             .strip_prefix('"')
             .and_then(|text| text.strip_suffix('"'));
         Value::Text(quoted.unwrap_or(text).to_string())
+    }
+
+    /// The text from `first` to where the reader stands, as it is written; lines as one.
+    fn written(&self, first: usize) -> Cow<'_, str> {
+        if first == self.at {
+            return Cow::Borrowed("");
+        }
+        let text = self
+            .source
+            .slice(self.span(first).to(self.span(self.at - 1)));
+        if text.contains('\n') {
+            return Cow::Owned(join(self.source, &self.items[first..self.at]));
+        }
+        Cow::Borrowed(text)
     }
 
     fn strings(&mut self) -> Result<Value, Refused> {
@@ -246,12 +255,7 @@ impl Parser<'_, '_> {
             ) {
                 self.at += 1;
             }
-            let text = if first == self.at {
-                ""
-            } else {
-                self.source
-                    .slice(self.span(first).to(self.span(self.at - 1)))
-            };
+            let text = self.written(first);
             values.push(text.trim_matches('"').to_string());
             if self.kind(self.at) != Some(TokenKind::Comma) || self.text_ends_at(self.at) {
                 break;

@@ -2,6 +2,7 @@
 
 use crate::source::Span;
 use std::collections::HashMap;
+use std::fmt;
 use std::ops::Deref;
 
 /// What every identified statement has.
@@ -26,10 +27,16 @@ pub trait Element {
 ///
 /// It reads like a slice. Where an identifier occurs twice (an error of the dataset) the first
 /// one is found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Elements<T> {
     list: Vec<T>,
     index: HashMap<u32, usize>,
+}
+
+impl<T: fmt::Debug> fmt::Debug for Elements<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(&self.list).finish()
+    }
 }
 
 impl<T> Default for Elements<T> {

@@ -35,6 +35,8 @@ pub struct SyntaxTree {
     pub tokens: Vec<Token>,
     /// The statements in order, END excluded; what follows END is in none.
     pub statements: Vec<StatementTokens>,
+    /// The token END of a dataset.
+    pub end: Option<usize>,
 }
 
 impl SyntaxTree {
@@ -42,8 +44,12 @@ impl SyntaxTree {
     #[must_use]
     pub fn new(source: &Source, language: Language) -> Self {
         let tokens = token::tokens(source, language);
-        let statements = statements(source, &tokens, language);
-        Self { tokens, statements }
+        let (statements, end) = statements(source, &tokens, language);
+        Self {
+            tokens,
+            statements,
+            end,
+        }
     }
 
     /// The place of a statement, from its name to its last argument.
@@ -59,7 +65,13 @@ impl SyntaxTree {
 
 /// A statement ends at `;`, or at the end of a line unless that line ends in `&` or `,` or the
 /// next line that is neither blank nor comment starts with `,`.
-fn statements(source: &Source, tokens: &[Token], language: Language) -> Vec<StatementTokens> {
+///
+/// Gives the statements and the position of END.
+fn statements(
+    source: &Source,
+    tokens: &[Token],
+    language: Language,
+) -> (Vec<StatementTokens>, Option<usize>) {
     let mut statements = Vec::new();
     let mut name_comment = None;
     let mut current: Option<StatementTokens> = None;
@@ -96,7 +108,7 @@ fn statements(source: &Source, tokens: &[Token], language: Language) -> Vec<Stat
             None => {
                 let is_end = source.slice(token.span()).eq_ignore_ascii_case("END");
                 if language == Language::Dataset && is_end {
-                    return statements;
+                    return (statements, Some(index));
                 }
                 current = Some(StatementTokens {
                     tokens: index..index + 1,
@@ -106,5 +118,5 @@ fn statements(source: &Source, tokens: &[Token], language: Language) -> Vec<Stat
         }
     }
     statements.extend(current);
-    statements
+    (statements, None)
 }

@@ -6,6 +6,7 @@ mod cases;
 mod changes;
 mod corpus;
 mod forces;
+mod format;
 mod language;
 mod misuse;
 mod mutations;
