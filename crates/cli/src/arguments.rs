@@ -16,6 +16,7 @@ pub(crate) struct Arguments {
 
 const EXIT_CODES: &str = "Exit codes:
   0    success
+  1    fmt --check: the layout of a file would change
   2    wrong usage, or a file that cannot be written
   3    error in the input, with file, line and column, or a warning that --deny makes one
   4    the model cannot be assembled
@@ -39,6 +40,14 @@ pub(crate) enum Command {
     /// With --at why it was what it was at that time: load, coefficient, and the share of preload,
     /// reaction force, bending and torsion.
     Explain(ExplainArguments),
+    /// Lay datasets and command files out anew, without changing what they say
+    ///
+    /// In a dataset the head of a statement and each argument get a line of their own; a command
+    /// stands on one line where 80 columns hold it. Lines within a value (the rows of a matrix)
+    /// stay as they are broken; longer ones are broken so that they read the same. Words, numbers,
+    /// texts, comments, what follows END, line ends and the encoding stay. A file that cannot be
+    /// read is left alone; a file is replaced only when its new text says the same.
+    Fmt(FmtArguments),
 }
 
 /// Simulate a model and write its results.
@@ -125,6 +134,27 @@ pub(crate) struct ExplainArguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
+}
+
+/// Lay datasets and command files out anew, without changing what they say.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:
+  stiction fmt delta.adm delta.acf
+  stiction fmt --check *.adm
+  stiction fmt --stdout delta.adm | diff delta.adm -",
+    after_long_help = EXIT_CODES
+)]
+pub(crate) struct FmtArguments {
+    /// Datasets (.adm) and command files (.acf)
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Change nothing; name the files whose layout would change
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Write the text to standard output instead of into the file
+    #[arg(long, conflicts_with = "check")]
+    pub(crate) stdout: bool,
 }
 
 /// How progress is shown.

@@ -2,10 +2,11 @@
 
 use std::io::Write;
 
-/// Exit statuses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Exit statuses, the graver ones later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Exit {
     Success,
+    Different,
     Usage,
     Input,
     Assembly,
@@ -18,6 +19,7 @@ impl Exit {
     pub(crate) fn code(self) -> u8 {
         match self {
             Self::Success => 0,
+            Self::Different => 1,
             Self::Usage => 2,
             Self::Input => 3,
             Self::Assembly => 4,
@@ -34,5 +36,10 @@ pub(crate) fn complain(text: &str) {
 
 /// Writes to standard output; a closed pipe is no reason to fail.
 pub(crate) fn say(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+    say_bytes(text.as_bytes());
+}
+
+/// Like [`say`] for a text in another encoding.
+pub(crate) fn say_bytes(bytes: &[u8]) {
+    let _ = std::io::stdout().lock().write_all(bytes);
 }

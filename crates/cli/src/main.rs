@@ -5,8 +5,10 @@ mod check;
 mod diagnostics;
 mod exit;
 mod explain;
+mod fmt;
 mod progress;
 mod record;
+mod replace;
 mod run;
 
 use std::process::ExitCode;
@@ -20,6 +22,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
+        Command::Fmt(arguments) => fmt::fmt(&arguments),
     };
     ExitCode::from(status.code())
 }
