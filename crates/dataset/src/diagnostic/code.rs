@@ -154,6 +154,8 @@ codes! {
     StaticBelowDynamic = "static-below-dynamic", "Exchange the two coefficients, or make them equal.";
     /// A default that is a plain number, meant for millimetres and seconds, in a model with other units. A transition velocity of 0.1 is slow in mm/s and fast in m/s.
     DimensionalDefault = "dimensional-default", "Give the arguments in the units of the model.";
+    /// INVPSD makes a signal of random phases, which every program draws in its own way.
+    RandomPhases = "random-phases", "Nothing, unless runs of different programs are to be compared: then give the signal as a SPLINE.";
     /// The reaction that loads a friction is not unique, because constraints of the model are redundant: another choice of the equations that are left out gives another friction.
     ReactionNotUnique = "reaction-not-unique", "Replace joints by such that constrain the mechanism once, as a HOOKE, SPHERICAL or INLINE for a REVOLUTE.";
 

@@ -396,7 +396,13 @@ impl Parser<'_> {
                 if most == 1 { "" } else { "s" },
                 arguments.len()
             );
-            return Err(self.problem(Code::ArgumentCount, span, message));
+            let mut problem = self.problem(Code::ArgumentCount, span, message);
+            problem.help = Some(format!(
+                "write {}({})",
+                function.name(),
+                function.arguments()
+            ));
+            return Err(problem);
         }
         self.check_width(function, &arguments, span)?;
         if deepest >= DEEPEST {
@@ -423,7 +429,12 @@ impl Parser<'_> {
                 Function::Step | Function::Step5 | Function::Havsin,
                 [_, Expr::Number(from), _, Expr::Number(to), _],
             ) => (to - from).abs(),
-            (Function::Impact | Function::Bistop, [.., Expr::Number(depth)]) => *depth,
+            (Function::Impact | Function::Bistop | Function::Sweep, [.., Expr::Number(depth)])
+                if !(*depth > 0.0) =>
+            {
+                *depth
+            }
+            (Function::Sweep, [_, _, Expr::Number(from), _, Expr::Number(to), ..]) => to - from,
             _ => return Ok(()),
         };
         if width > 0.0 {
@@ -431,6 +442,10 @@ impl Parser<'_> {
         }
         let name = function.name();
         let (message, help) = match function {
+            Function::Sweep => (
+                "SWEEP needs x1 above x0 and dx above 0".to_string(),
+                "its frequency rises from x0 to x1, and it fades in from x0 to x0 + dx",
+            ),
             Function::Impact | Function::Bistop => (
                 format!("the last argument of {name} must be greater than 0"),
                 "it is the depth at which the damping is complete",

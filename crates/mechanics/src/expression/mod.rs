@@ -54,6 +54,18 @@ pub enum Operation {
     Lookup(usize, usize, Register, Register),
 }
 
+impl Operation {
+    /// The registers that it reads, some repeated; `None` where it reads none.
+    fn reads(self) -> Option<[Register; 4]> {
+        match self {
+            Self::Constant(_) | Self::Input(_) => None,
+            Self::Unary(_, a) => Some([a; 4]),
+            Self::Binary(_, a, b) | Self::Lookup(_, _, a, b) => Some([a, b, a, b]),
+            Self::Select(a, b, c, d) => Some([a, b, c, d]),
+        }
+    }
+}
+
 /// A compiled function; its value is that of the last operation.
 ///
 /// ```
@@ -81,24 +93,34 @@ impl Program {
         }
     }
 
-    /// Appends an operation; registers it reads must exist.
+    /// Appends an operation; registers it reads must exist. An operation on constants is a
+    /// constant at once.
     ///
     /// # Panics
     /// When the operation reads a register that does not exist yet.
     pub fn push(&mut self, operation: Operation) -> Register {
         let new = self.operations.len() as Register;
-        let before = match operation {
-            Operation::Constant(_) | Operation::Input(_) => true,
-            Operation::Unary(_, a) => a < new,
-            Operation::Binary(_, a, b) => a.max(b) < new,
-            Operation::Select(a, b, c, d) => a.max(b).max(c.max(d)) < new,
-            Operation::Lookup(table, order, x, z) => {
-                x.max(z) < new && table < self.tables.len() && order <= 2
-            }
-        };
+        let reads = operation.reads();
+        let before = reads.is_none_or(|reads| reads.iter().all(|r| *r < new));
         assert!(before, "an operation reads registers before it");
-        self.operations.push(operation);
+        let constant = |r: &Register| self.constant_value(*r).is_some();
+        self.operations
+            .push(if reads.is_some_and(|reads| reads.iter().all(constant)) {
+                let at = |r: Register| self.constant_value(r).unwrap_or(f64::NAN);
+                Operation::Constant(self.apply(operation, at, |_| f64::NAN))
+            } else {
+                operation
+            });
         new
+    }
+
+    /// The number in a register that depends on no input.
+    #[must_use]
+    pub fn constant_value(&self, register: Register) -> Option<f64> {
+        match self.operations.get(register as usize) {
+            Some(Operation::Constant(value)) => Some(*value),
+            _ => None,
+        }
     }
 
     /// Appends the `order`-th derivative by x (0, 1 or 2) of a table at `(x, z)`.
@@ -149,24 +171,32 @@ impl Program {
 
     pub(crate) fn run<T: Scalar>(&self, registers: &mut [T], read: impl Fn(Input) -> T) -> T {
         for (place, operation) in self.operations.iter().enumerate() {
-            let at = |r: Register| registers[r as usize];
-            registers[place] = match *operation {
-                Operation::Constant(value) => T::constant(value),
-                Operation::Input(input) => read(input),
-                Operation::Unary(function, a) => {
-                    let (value, slope, curvature) = unary(function, at(a).value());
-                    at(a).chain(value, slope, curvature)
-                }
-                Operation::Binary(function, a, b) => binary(function, at(a), at(b)),
-                Operation::Select(a, negative, zero, positive) => {
-                    at(select(at(a).value(), negative, zero, positive))
-                }
-                Operation::Lookup(table, order, x, z) => {
-                    lookup(&self.tables[table], order, at(x), at(z))
-                }
-            };
+            registers[place] = self.apply(*operation, |r| registers[r as usize], &read);
         }
         registers[self.operations.len() - 1]
+    }
+
+    fn apply<T: Scalar>(
+        &self,
+        operation: Operation,
+        at: impl Fn(Register) -> T,
+        read: impl Fn(Input) -> T,
+    ) -> T {
+        match operation {
+            Operation::Constant(value) => T::constant(value),
+            Operation::Input(input) => read(input),
+            Operation::Unary(function, a) => {
+                let (value, slope, curvature) = unary(function, at(a).value());
+                at(a).chain(value, slope, curvature)
+            }
+            Operation::Binary(function, a, b) => binary(function, at(a), at(b)),
+            Operation::Select(a, negative, zero, positive) => {
+                at(select(at(a).value(), negative, zero, positive))
+            }
+            Operation::Lookup(table, order, x, z) => {
+                lookup(&self.tables[table], order, at(x), at(z))
+            }
+        }
     }
 
     /// Calls `derivative(input, slope)` for every input of the program, after

@@ -155,6 +155,39 @@ pub(super) fn harmonic(program: &mut Program, arguments: &[Register]) -> Registe
     binary(program, Binary::Add, wave, average)
 }
 
+/// `SWEEP(x, a, x0, f0, x1, f1, dx)`: `a sin(2π φ(x))` where the frequency `φ'` (cycles) rises
+/// linearly from f0 at x0 to f1 at x1 and is constant outside, and `φ(x0) = f0 x0`; it fades in by
+/// the quintic step from x0 to x0 + dx, so that it is zero below x0.
+pub(super) fn sweep(program: &mut Program, arguments: &[Register]) -> Register {
+    let [x, a, x0, f0, x1, f1, dx] = *arguments else {
+        return constant(program, f64::NAN);
+    };
+    let (zero, one) = (constant(program, 0.0), constant(program, 1.0));
+    let inside = binary(program, Binary::Min, x, x1);
+    let inside = binary(program, Binary::Subtract, inside, x0);
+    let width = binary(program, Binary::Subtract, x1, x0);
+    let rise = binary(program, Binary::Subtract, f1, f0);
+    // f0 x0 + (f0 + rise u/(2 width)) u, and f1 (x − x1) beyond.
+    let start = binary(program, Binary::Multiply, f0, x0);
+    let half = constant(program, 0.5);
+    let bend = binary(program, Binary::Divide, rise, width);
+    let bend = binary(program, Binary::Multiply, half, bend);
+    let mean = binary(program, Binary::Multiply, bend, inside);
+    let mean = binary(program, Binary::Add, f0, mean);
+    let cycles = binary(program, Binary::Multiply, mean, inside);
+    let cycles = binary(program, Binary::Add, start, cycles);
+    let beyond = dim(program, x, x1);
+    let beyond = binary(program, Binary::Multiply, f1, beyond);
+    let cycles = binary(program, Binary::Add, cycles, beyond);
+    let turn = constant(program, std::f64::consts::TAU);
+    let angle = binary(program, Binary::Multiply, turn, cycles);
+    let sine = unary(program, Unary::Sin, angle);
+    let full = binary(program, Binary::Add, x0, dx);
+    let share = step(program, Unary::QuinticStep, &[x, x0, zero, full, one]);
+    let amplitude = binary(program, Binary::Multiply, a, share);
+    binary(program, Binary::Multiply, amplitude, sine)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -30,7 +30,7 @@ pub(super) struct Compiler {
     pub(super) program: Program,
     reads: Reads,
     /// What the expressions belong to, for messages, such as `SFORCE/3`.
-    owner: String,
+    pub(super) owner: String,
     /// Place of the expression.
     span: Span,
     /// Values of the variables that are in the program already; `None` for a refused one.
@@ -114,7 +114,11 @@ impl Compiler {
     }
 
     /// Recursion is no deeper than an expression, which is `dataset::DEEPEST` at most.
-    fn expr(&mut self, lowering: &mut Lowering, expr: &Expr) -> Result<Register, Refused> {
+    pub(super) fn expr(
+        &mut self,
+        lowering: &mut Lowering,
+        expr: &Expr,
+    ) -> Result<Register, Refused> {
         Ok(match expr {
             Expr::Number(value) => self.constant(*value),
             Expr::Time => self.program.push(Operation::Input(Input::Time)),
@@ -150,7 +154,7 @@ impl Compiler {
         let Expr::Call {
             function,
             arguments,
-            ..
+            span,
         } = call
         else {
             return Err(Refused);
@@ -192,8 +196,12 @@ impl Compiler {
             }
             return Ok(self.result(lowering, source));
         }
-        if let Function::Akispl | Function::Cubspl = function {
-            return self.interpolation(lowering, function, arguments);
+        match function {
+            Function::Akispl | Function::Cubspl => {
+                return self.interpolation(lowering, function, arguments);
+            }
+            Function::Invpsd => return self.power_density(lowering, arguments, *span),
+            _ => {}
         }
         let of_numbers =
             (0..arguments.len()).all(|k| function.argument_kind(k) == ArgumentKind::Real);
@@ -256,16 +264,9 @@ impl Compiler {
         let Expr::Call { function, span, .. } = call else {
             return Refused;
         };
-        let message = if *function == Function::User {
-            format!("{}: USER calls a subroutine, which is not done", self.owner)
-        } else {
-            format!(
-                "{}: the function {} is not simulated yet",
-                self.owner,
-                function.name()
-            )
-        };
-        lowering.error(Code::UnsupportedFunction, *span, message, None);
+        let (reason, help) = refusal(*function);
+        let message = format!("{}: {} {reason}", self.owner, function.name());
+        lowering.error(Code::UnsupportedFunction, *span, message, Some(help));
         Refused
     }
 
@@ -314,8 +315,52 @@ impl Compiler {
             F::Forsin => composite::fourier(&mut self.program, Unary::Sin, x),
             F::Forcos => composite::fourier(&mut self.program, Unary::Cos, x),
             F::Shf => composite::harmonic(&mut self.program, x),
+            F::Sweep => composite::sweep(&mut self.program, x),
             _ => return None,
         })
+    }
+}
+
+/// Why a function is not simulated, and what to write instead.
+const fn refusal(function: Function) -> (&'static str, &'static str) {
+    use Function as F;
+    match function {
+        F::User => (
+            "calls a subroutine, which is not done",
+            "write what the subroutine computes as an expression",
+        ),
+        F::Delay => (
+            "reads values of the past, which are not kept",
+            "a lag of first order is a DIFF: its rate is (x - DIF(id))/tau",
+        ),
+        F::Interp => (
+            "reads time histories of other programs, which is not done",
+            "give the points in a SPLINE and read it by AKISPL or CUBSPL",
+        ),
+        F::Orient => (
+            "knows types 1 to 12 (three components) and 27 (four) only",
+            "type 1 is 1-2-3, 6 is 3-2-1, 11 is 3-1-3; 27 gives the Euler parameters",
+        ),
+        F::Senval => (
+            "reads a value that sensors do not keep",
+            "write the function that EVALUATE of the SENSOR has",
+        ),
+        F::Contact | F::Cvcv | F::Nforce => (
+            "reads a force of an element that is not simulated",
+            "take the element and what reads it out of the model",
+        ),
+        F::Dxyz | F::Vxyz | F::Wxyz | F::Accxyz | F::Fxyz | F::Txyz => (
+            "gives a vector, which is not computed with",
+            "read its components: DX, DY and DZ for DXYZ, and so on",
+        ),
+        F::Uvx | F::Uvy | F::Uvz | F::Uv | F::Mag | F::Trans => (
+            "computes with vectors, which is not done",
+            "write components: DX(i, j, k) is DXYZ(i, j)*UVX(k), DM(i, j) is MAG(DXYZ(i, j))",
+        ),
+        _ => (
+            "cannot be computed from these arguments",
+            "docs/functions.md lists the functions and what they take",
+        ),
     }
 }
 

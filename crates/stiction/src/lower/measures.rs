@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use dataset::{Expr, Function};
-use mechanics::measure::{Measure, Quantity};
+use mechanics::measure::{Measure, Quantity, Sequence};
 
 /// The measures of a model, each once, in the order in which functions first name them.
 ///
@@ -12,7 +12,7 @@ use mechanics::measure::{Measure, Quantity};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Measures {
     list: Vec<Measure>,
-    places: HashMap<(Function, u32, [usize; 4]), usize>,
+    places: HashMap<Measure, usize>,
 }
 
 impl Measures {
@@ -42,7 +42,6 @@ impl Measures {
         let ijk = [0, 1, 2, NONE];
         let ijl = [0, 1, NONE, 2];
         let ijkl = [0, 1, 2, 3];
-        let mut component = 0;
         let (quantity, roles) = match function {
             F::Dx => (Q::Displacement(0), ijk),
             F::Dy => (Q::Displacement(1), ijk),
@@ -51,22 +50,14 @@ impl Measures {
             F::Ax => (Q::Rotation(0), ij),
             F::Ay => (Q::Rotation(1), ij),
             F::Az => (Q::Rotation(2), ij),
-            F::Psi => (Q::Euler(0), ij),
-            F::Theta => (Q::Euler(1), ij),
-            F::Phi => (Q::Euler(2), ij),
+            F::Psi => (Q::BodyFixed([2, 0, 2], 0), ij),
+            F::Theta => (Q::BodyFixed([2, 0, 2], 1), ij),
+            F::Phi => (Q::BodyFixed([2, 0, 2], 2), ij),
             F::Yaw => (Q::YawPitchRoll(0), ij),
             F::Pitch => (Q::YawPitchRoll(1), ij),
             F::Roll => (Q::YawPitchRoll(2), ij),
             F::Incang => (Q::IncludedAngle, ijk),
-            F::Orient => {
-                // Type 27: Euler parameters; component 1 to 4.
-                let parameter = arguments.get(1)?.as_id()?.checked_sub(1)?;
-                if arguments[0].as_id() != Some(27) || parameter > 3 {
-                    return None;
-                }
-                component = parameter;
-                (Q::EulerParameter(parameter as usize), [2, 3, NONE, NONE])
-            }
+            F::Orient => (orientation(arguments)?, [2, 3, NONE, NONE]),
             F::Vx => (Q::Velocity(0), ijkl),
             F::Vy => (Q::Velocity(1), ijkl),
             F::Vz => (Q::Velocity(2), ijkl),
@@ -93,15 +84,13 @@ impl Measures {
                 .filter(|id| *id > 0);
             marker(id)
         });
-        Some(self.place((function, component, markers), quantity))
+        Some(self.place(quantity, markers))
     }
 
     /// Place of the body-fixed 1-2-3 angle `n` of marker `i` in marker `j`.
     pub(crate) fn body_123(&mut self, n: usize, i: usize, j: usize, ground: usize) -> usize {
-        // No function of the language has this quantity: ROLL stands for it in the key with a
-        // component that ROLL itself never has.
-        let key = (Function::Roll, 1 + n as u32, [i, j, ground, ground]);
-        self.place(key, Quantity::Body123(n))
+        let quantity = Quantity::BodyFixed([0, 1, 2], n);
+        self.place(quantity, [i, j, ground, ground])
     }
 
     /// Place of the rotation of marker `i` about z of marker `j`, or of its displacement along it.
@@ -113,25 +102,54 @@ impl Measures {
         ground: usize,
     ) -> usize {
         if rotation {
-            let key = (Function::Az, 0, [i, j, ground, ground]);
-            self.place(key, Quantity::Rotation(2))
+            self.place(Quantity::Rotation(2), [i, j, ground, ground])
         } else {
-            let key = (Function::Dz, 0, [i, j, j, ground]);
-            self.place(key, Quantity::Displacement(2))
+            self.place(Quantity::Displacement(2), [i, j, j, ground])
         }
     }
 
-    fn place(&mut self, key: (Function, u32, [usize; 4]), quantity: Quantity) -> usize {
-        let [i, j, k, l] = key.2;
-        *self.places.entry(key).or_insert_with(|| {
-            self.list.push(Measure {
-                quantity,
-                i,
-                j,
-                k,
-                l,
-            });
+    fn place(&mut self, quantity: Quantity, [i, j, k, l]: [usize; 4]) -> usize {
+        let measure = Measure {
+            quantity,
+            i,
+            j,
+            k,
+            l,
+        };
+        *self.places.entry(measure).or_insert_with(|| {
+            self.list.push(measure);
             self.list.len() - 1
         })
+    }
+}
+
+/// The quantity of `ORIENT(type, component, ...)`: types 1 to 12 are body-fixed sequences, 27 is
+/// the Euler parameters; the numbers of the other types are not known here.
+fn orientation(arguments: &[Expr]) -> Option<Quantity> {
+    /// The sequences by type, from 1 on: three different axes, then the first axis again (the
+    /// order of Kane, Likins and Levinson, *Spacecraft Dynamics*, appendix I).
+    const SEQUENCES: [Sequence; 12] = [
+        [0, 1, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [0, 2, 1],
+        [1, 0, 2],
+        [2, 1, 0],
+        [0, 1, 0],
+        [0, 2, 0],
+        [1, 0, 1],
+        [1, 2, 1],
+        [2, 0, 2],
+        [2, 1, 2],
+    ];
+    let kind = arguments.first()?.as_id()?;
+    let component = arguments.get(1)?.as_id()?.checked_sub(1)? as usize;
+    match kind {
+        27 if component < 4 => Some(Quantity::EulerParameter(component)),
+        1..=12 if component < 3 => {
+            let sequence = SEQUENCES[kind as usize - 1];
+            Some(Quantity::BodyFixed(sequence, component))
+        }
+        _ => None,
     }
 }

@@ -15,11 +15,14 @@ mod expression;
 mod forces;
 mod frame;
 mod friction;
+#[cfg(test)]
+mod function_test;
 mod joints;
 mod measures;
 mod motions;
 mod outputs;
 mod pose;
+mod power_density;
 mod results;
 mod tables;
 

@@ -16,6 +16,7 @@ mod differential;
 mod energy;
 mod examples;
 mod explain;
+mod functions;
 mod instants;
 mod invariance;
 mod jams;

@@ -5,14 +5,19 @@
 //! `d = o_i − o_j`; components are along the axes of marker k; velocities and accelerations are
 //! those seen from marker l. Ground stands for markers that a function leaves out.
 
+mod angles;
+mod frame;
+
 use nalgebra::Vector3;
 
-use crate::rotation;
-use crate::scalar::{Dual, Jet, Scalar, Triple};
+use crate::scalar::{Dual, Jet, Scalar};
 use crate::state::MarkerFrame;
+pub use angles::Sequence;
+use angles::{body_fixed, euler_parameter};
+use frame::Frame;
 
 /// The quantities, named after the functions of the dataset language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// DX, DY, DZ: component of `d` along axis 0, 1 or 2 of k.
     Displacement(usize),
@@ -20,12 +25,11 @@ pub enum Quantity {
     Distance,
     /// AX, AY, AZ: rotation of i about axis 0, 1 or 2 of j, continuous over many turns.
     Rotation(usize),
-    /// PSI, THETA, PHI: body-fixed 3-1-3 angle 0, 1 or 2 of i in j.
-    Euler(usize),
+    /// PSI, THETA, PHI (3-1-3), B1, B2, B3 of a motion (1-2-3), ORIENT: angle 0, 1 or 2 of a
+    /// sequence of body-fixed turns of i in j.
+    BodyFixed(Sequence, usize),
     /// YAW, PITCH, ROLL: body-fixed 3-2-1 angle 0, 1 or 2 of i in j; pitch with the opposite sign.
     YawPitchRoll(usize),
-    /// B1, B2, B3 of a motion: body-fixed 1-2-3 angle 0, 1 or 2 of i in j.
-    Body123(usize),
     /// INCANG: angle at j between the lines to i and to k.
     IncludedAngle,
     /// ORIENT type 27: Euler parameter 0 to 3 of i in j.
@@ -70,9 +74,8 @@ impl Quantity {
             Self::Displacement(_)
             | Self::Distance
             | Self::Rotation(_)
-            | Self::Euler(_)
+            | Self::BodyFixed(..)
             | Self::YawPitchRoll(_)
-            | Self::Body123(_)
             | Self::IncludedAngle
             | Self::EulerParameter(_) => Order::Displacement,
             Self::Velocity(_)
@@ -89,7 +92,7 @@ impl Quantity {
 }
 
 /// A quantity and its markers, by their places in [`crate::model::Model::markers`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Measure {
     /// What is measured.
     pub quantity: Quantity,
@@ -111,117 +114,6 @@ impl Measure {
     }
 }
 
-/// A marker with derivatives.
-#[derive(Clone, Copy)]
-struct Frame<T> {
-    origin: Triple<T>,
-    axes: [Triple<T>; 3],
-    velocity: Triple<T>,
-    omega: Triple<T>,
-}
-
-fn triple(v: &Vector3<f64>) -> Triple<f64> {
-    Triple([v.x, v.y, v.z])
-}
-
-impl Frame<f64> {
-    fn new(m: &MarkerFrame) -> Self {
-        Self {
-            origin: triple(&m.origin),
-            axes: [0, 1, 2].map(|k| triple(&m.axis(k))),
-            velocity: triple(&m.velocity),
-            omega: triple(&m.omega),
-        }
-    }
-}
-
-impl Frame<Dual> {
-    /// With the slopes by the motions of its body, where it is `seeded`.
-    fn new(m: &MarkerFrame, seeded: bool) -> Self {
-        // Vector `v` plus its change: `by(k)` is the change by motion k.
-        let vector = |v: &Vector3<f64>, by: &dyn Fn(usize) -> Vector3<f64>| {
-            let mut out = [0, 1, 2].map(|axis| Dual::constant(v[axis]));
-            if seeded {
-                for k in 0..12 {
-                    let change = by(k);
-                    for axis in 0..3 {
-                        out[axis].slopes[k] = change[axis];
-                    }
-                }
-            }
-            Triple(out)
-        };
-        let unit = |k: usize| {
-            let mut e = Vector3::zeros();
-            e[k % 3] = 1.0;
-            e
-        };
-        let turned = |v: Vector3<f64>| {
-            move |k: usize| {
-                if k / 3 == 1 {
-                    unit(k).cross(&v)
-                } else {
-                    Vector3::zeros()
-                }
-            }
-        };
-        let axes = [0, 1, 2].map(|axis| vector(&m.axis(axis), &turned(m.axis(axis))));
-        Self {
-            origin: vector(&m.origin, &|k| match k / 3 {
-                0 => unit(k),
-                1 => unit(k).cross(&m.arm),
-                _ => Vector3::zeros(),
-            }),
-            axes,
-            velocity: vector(&m.velocity, &|k| match k / 3 {
-                1 => m.omega.cross(&unit(k).cross(&m.arm)),
-                2 => unit(k),
-                3 => unit(k).cross(&m.arm),
-                _ => Vector3::zeros(),
-            }),
-            omega: vector(&m.omega, &|k| {
-                if k / 3 == 3 {
-                    unit(k)
-                } else {
-                    Vector3::zeros()
-                }
-            }),
-        }
-    }
-}
-
-impl Frame<Jet> {
-    /// Along the motion with all accelerations zero.
-    fn new(m: &MarkerFrame) -> Self {
-        let vector = |v: &Vector3<f64>, rate: Vector3<f64>, acceleration: Vector3<f64>| {
-            Triple([0, 1, 2].map(|k| Jet {
-                value: v[k],
-                rate: rate[k],
-                acceleration: acceleration[k],
-            }))
-        };
-        let turned = |v: &Vector3<f64>| (m.omega.cross(v), m.omega.cross(&m.omega.cross(v)));
-        let zero = Vector3::zeros();
-        let arm = turned(&m.arm);
-        Self {
-            origin: vector(&m.origin, m.velocity, arm.1),
-            axes: [0, 1, 2].map(|k| {
-                let axis = m.axis(k);
-                let (rate, acceleration) = turned(&axis);
-                vector(&axis, rate, acceleration)
-            }),
-            // Only quantities of displacement are asked for along a motion.
-            velocity: vector(&m.velocity, zero, zero),
-            omega: vector(&m.omega, zero, zero),
-        }
-    }
-}
-
-fn asin_safe<T: Scalar>(sine: T) -> T {
-    let cosine = (T::constant(1.0) - sine * sine).sqrt();
-    sine.atan2(cosine)
-}
-
 /// Quantities of displacement and velocity; angles are principal values.
 fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
     let d = i.origin.minus(&j.origin);
@@ -232,27 +124,15 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
         i.velocity.minus(&j.velocity).minus(&drift)
     };
     let spin = || i.omega.minus(&j.omega);
-    let parallel = || c(2, 0).value().hypot(c(2, 1).value()) < rotation::PARALLEL;
     match quantity {
         Quantity::Displacement(axis) => d.dot(&k.axes[axis]),
         Quantity::Distance => d.norm(),
         Quantity::Rotation(0) => (-c(2, 1)).atan2(c(2, 2)),
         Quantity::Rotation(1) => c(2, 0).atan2(c(2, 2)),
         Quantity::Rotation(_) => c(0, 1).atan2(c(0, 0)),
-        // Where the z axes are parallel only ψ ± φ is determined; φ is then zero.
-        Quantity::Euler(0) if parallel() => c(0, 1).atan2(c(0, 0)),
-        Quantity::Euler(2) if parallel() => T::constant(0.0),
-        Quantity::Euler(0) => c(2, 0).atan2(-c(2, 1)),
-        Quantity::Euler(1) => (c(2, 0) * c(2, 0) + c(2, 1) * c(2, 1))
-            .sqrt()
-            .atan2(c(2, 2)),
-        Quantity::Euler(_) => c(0, 2).atan2(c(1, 2)),
-        Quantity::YawPitchRoll(0) => c(0, 1).atan2(c(0, 0)),
-        Quantity::YawPitchRoll(1) => asin_safe(c(0, 2)),
-        Quantity::YawPitchRoll(_) => c(1, 2).atan2(c(2, 2)),
-        Quantity::Body123(0) => (-c(2, 1)).atan2(c(2, 2)),
-        Quantity::Body123(1) => asin_safe(c(2, 0)),
-        Quantity::Body123(_) => (-c(1, 0)).atan2(c(0, 0)),
+        Quantity::BodyFixed(sequence, n) => body_fixed(sequence, n, &c),
+        Quantity::YawPitchRoll(1) => -body_fixed([2, 1, 0], 1, &c),
+        Quantity::YawPitchRoll(n) => body_fixed([2, 1, 0], n, &c),
         Quantity::IncludedAngle => {
             let e = k.origin.minus(&j.origin);
             d.cross(&e).norm().atan2(d.dot(&e))
@@ -275,43 +155,6 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
         | Quantity::AccelerationMagnitude
         | Quantity::AngularAcceleration(_)
         | Quantity::AngularAccelerationMagnitude => T::constant(f64::NAN),
-    }
-}
-
-/// Euler parameter `n` of the rotation with cosines `c(a, b)` between axis a of i and b of j; the
-/// first parameter is not negative.
-fn euler_parameter<T: Scalar>(n: usize, c: &impl Fn(usize, usize) -> T) -> T {
-    // Four times the product of parameters p and q, from the matrix R with R[b][a] = c(a, b).
-    let one = T::constant(1.0);
-    let product = |p: usize, q: usize| {
-        let (p, q) = (p.min(q), p.max(q));
-        match (p, q) {
-            (0, 0) => one + c(0, 0) + c(1, 1) + c(2, 2),
-            (0, q) => {
-                let (a, b) = (q % 3, (q + 1) % 3);
-                c(a, b) - c(b, a)
-            }
-            (p, q) if p == q => {
-                let (a, b) = (p % 3, (p + 1) % 3);
-                one + c(p - 1, p - 1) - c(a, a) - c(b, b)
-            }
-            (p, q) => c(p - 1, q - 1) + c(q - 1, p - 1),
-        }
-    };
-    // Divide by the largest parameter (Shepperd 1978).
-    let largest = (0..4).fold(0, |b, p| {
-        if product(p, p).value() > product(b, b).value() {
-            p
-        } else {
-            b
-        }
-    });
-    let half = T::constant(0.5);
-    let parameter = half * product(n, largest) / product(largest, largest).sqrt();
-    if largest != 0 && product(0, largest).value() < 0.0 {
-        -parameter
-    } else {
-        parameter
     }
 }
 
@@ -378,7 +221,7 @@ pub fn acceleration(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rotation::{Quaternion, from_euler_313};
+    use crate::rotation::Quaternion;
 
     const ALL: [Quantity; 21] = [
         Quantity::Displacement(0),
@@ -387,13 +230,13 @@ mod tests {
         Quantity::Rotation(0),
         Quantity::Rotation(1),
         Quantity::Rotation(2),
-        Quantity::Euler(0),
-        Quantity::Euler(1),
-        Quantity::Euler(2),
+        Quantity::BodyFixed([2, 0, 2], 0),
+        Quantity::BodyFixed([2, 0, 2], 1),
+        Quantity::BodyFixed([2, 0, 2], 2),
         Quantity::YawPitchRoll(1),
         Quantity::YawPitchRoll(2),
-        Quantity::Body123(1),
-        Quantity::Body123(2),
+        Quantity::BodyFixed([0, 1, 2], 1),
+        Quantity::BodyFixed([1, 0, 2], 2),
         Quantity::IncludedAngle,
         Quantity::EulerParameter(0),
         Quantity::EulerParameter(3),
@@ -500,25 +343,41 @@ mod tests {
             velocity: Vector3::zeros(),
             omega: Vector3::zeros(),
         };
-        let angles = [0.4, 0.9, -1.1];
-        let turned = MarkerFrame {
-            axes: from_euler_313(&angles),
-            ..ground
-        };
-        let markers = [&turned, &ground, &ground, &ground];
-        for (n, angle) in angles.iter().enumerate() {
-            assert!((value(Quantity::Euler(n), markers) - angle).abs() < 1e-14);
-        }
-        for tilt in [0.0, std::f64::consts::PI] {
-            let flat = MarkerFrame {
-                axes: from_euler_313(&[0.4, tilt, 0.0]),
-                ..ground
+        let turned_by = |angles: [f64; 3], sequence: Sequence| {
+            let turn = |k: usize| {
+                let mut theta = Vector3::zeros();
+                theta[sequence[k]] = angles[k];
+                Quaternion::exp(&theta).matrix()
             };
-            let markers = [&flat, &ground, &ground, &ground];
-            for (n, angle) in [0.4, tilt, 0.0].iter().enumerate() {
-                assert!((value(Quantity::Euler(n), markers) - angle).abs() < 1e-14);
+            MarkerFrame {
+                axes: turn(0) * turn(1) * turn(2),
+                ..ground
+            }
+        };
+        for (a, b) in [(0, 1), (1, 2), (2, 0), (0, 2), (1, 0), (2, 1)] {
+            for last in [a, 3 - a - b] {
+                let (angles, sequence) = ([0.4, 0.9, -1.1], [a, b, last]);
+                let turned = turned_by(angles, sequence);
+                let markers = [&turned, &ground, &ground, &ground];
+                for (n, angle) in angles.iter().enumerate() {
+                    let found = value(Quantity::BodyFixed(sequence, n), markers);
+                    assert!((found - angle).abs() < 1e-14, "{sequence:?} {n}: {found}");
+                }
+                // Where the middle angle leaves only the sum of the others, the last is zero.
+                if last == a {
+                    for middle in [0.0, std::f64::consts::PI] {
+                        let flat = turned_by([0.4, middle, 0.0], sequence);
+                        let markers = [&flat, &ground, &ground, &ground];
+                        for (n, angle) in [0.4, middle, 0.0].iter().enumerate() {
+                            let found = value(Quantity::BodyFixed(sequence, n), markers);
+                            assert!((found - angle).abs() < 1e-14, "{sequence:?} {n}");
+                        }
+                    }
+                }
             }
         }
+        let turned = turned_by([0.4, 0.9, -1.1], [2, 0, 2]);
+        let markers = [&turned, &ground, &ground, &ground];
         let q = Quaternion::from_matrix(&turned.axes);
         for (n, e) in [q.w, q.v.x, q.v.y, q.v.z].iter().enumerate() {
             assert!((value(Quantity::EulerParameter(n), markers) - e).abs() < 1e-14);
@@ -532,7 +391,6 @@ mod tests {
             };
             let markers = [&turned, &ground, &ground, &ground];
             assert!((value(Quantity::Rotation(axis), markers) - 0.7).abs() < 1e-14);
-            assert!((value(Quantity::Body123(axis), markers) - 0.7).abs() < 1e-14);
         }
     }
 }
