@@ -112,7 +112,7 @@ fn interpolate(xs: &[f64], ys: &[f64], x: f64, logarithmic: bool) -> f64 {
     }
 }
 
-/// Phases from a seed, equally distributed over a turn: the generator SplitMix64 (Steele, Lea and
+/// Phases from a seed, equally distributed over a turn: the generator `SplitMix64` (Steele, Lea and
 /// Flood, *Fast splittable pseudorandom number generators*, 2014).
 struct Phases(u64);
 
