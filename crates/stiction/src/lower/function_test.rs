@@ -55,6 +55,7 @@ BUSHING/1, I=60, J=1, K=1, 1, 1
 FIELD/1, I=60, J=1
 BEAM/1, I=60, J=1, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMODULUS=1, GMODULUS=1
 VARIABLE/1, FUNCTION=3+DX(21)
+DIFF/1, IC=1, FUNCTION=-DIF(1)
 PINPUT/1, VARIABLES=1
 POUTPUT/1, VARIABLES=1
 ";
@@ -211,8 +212,8 @@ fn checks() -> Vec<(Function, Check)> {
         ),
         (N::Varval, F("VARVAL(1)", |w| 3.0 + w.i.origin.x)),
         (N::Aryval, Refused("ARYVAL(1,1)")),
-        (N::Dif, Refused("DIF(1)")),
-        (N::Dif1, Refused("DIF1(1)")),
+        (N::Dif, Test("DIF(1)", STATES)),
+        (N::Dif1, Test("DIF1(1)", IMPLICIT)),
         (N::Pinval, F("PINVAL(1,1)", |w| 3.0 + w.i.origin.x)),
         (N::Pouval, F("POUVAL(1,1)", |w| 3.0 + w.i.origin.x)),
         (N::Senval, Refused("SENVAL(1)")),
@@ -346,6 +347,9 @@ fn checks() -> Vec<(Function, Check)> {
     ]
 }
 
+const IMPLICIT: &str =
+    "tests/stiction/differential.rs: an_implicit_equation_is_solved_for_its_rate";
+const STATES: &str = "tests/stiction/differential.rs: a_force_and_a_state_drive_each_other";
 const ACCELERATIONS: &str = "src/lower/function_test.rs: accelerations_are_rates_of_velocities";
 
 fn sample(check: &Check, x: &str, y: &str) -> String {
