@@ -68,6 +68,16 @@ pub(crate) const fn abbreviated(full: &'static str, least: &'static str, kind: K
     }
 }
 
+/// Why nothing that calls a subroutine of the user is simulated.
+pub(crate) const SUBROUTINE: &str = "subroutines are not called";
+
+/// ROUTINE: the library and the name of a subroutine.
+pub(crate) const ROUTINE: Keyword = keyword("ROUTINE", Kind::Unsupported(SUBROUTINE));
+
+/// INTERFACE: the language of a subroutine, which is refused where it is named.
+pub(crate) const INTERFACE: Keyword =
+    keyword("INTERFACE", Kind::Ignored("it is about a subroutine"));
+
 /// The value that a statement gives to an argument.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {

@@ -207,7 +207,7 @@ impl Parser<'_, '_> {
         let mut brackets = 0_usize;
         while let Some(kind) = self.kind(self.at) {
             match kind {
-                TokenKind::Backslash => break,
+                TokenKind::Backslash if self.value_ends_at(self.at) => break,
                 TokenKind::LeftParenthesis => brackets += 1,
                 TokenKind::RightParenthesis => brackets = brackets.saturating_sub(1),
                 TokenKind::Comma if self.kind(self.at + 1) == Some(TokenKind::Word) => {
@@ -220,6 +220,16 @@ impl Parser<'_, '_> {
             }
             self.at += 1;
         }
+    }
+
+    /// Whether the `\\` ends a value, and is not one inside the path of a file.
+    fn value_ends_at(&self, backslash: usize) -> bool {
+        let next = backslash + 1;
+        let in_path = self.span(backslash).end == self.span(next).start
+            && self.kind(next) != Some(TokenKind::Comma)
+            && self.kind(next + 1) != Some(TokenKind::Equals)
+            && !self.argument_at(next);
+        !in_path
     }
 
     /// Moves behind a value that is wrong, to `\\` or a comma before the name of an argument.

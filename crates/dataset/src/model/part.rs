@@ -100,10 +100,8 @@ pub enum MarkerOwner {
     Part(u32),
     /// `POINT_MASS`, by id.
     PointMass(u32),
-    /// `FLEX_BODY`, by id: never in a dataset without errors.
-    FlexBody(u32),
-    /// `FE_PART`, by id: never in a dataset without errors.
-    FePart(u32),
+    /// `FLEX_BODY`, `FE_PART`, CURVE or SURFACE: never in a dataset without errors.
+    Refused,
 }
 
 /// MARKER: a frame fixed on a part.

@@ -6,7 +6,7 @@ use crate::expression::Expression;
 /// How the function of a sensor is compared with its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
-    /// EQ: within ERROR of VALUE.
+    /// EQ, and where none is given: within ERROR of VALUE.
     Equal,
     /// GE: at least VALUE - ERROR.
     GreaterOrEqual,

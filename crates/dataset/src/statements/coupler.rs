@@ -2,19 +2,18 @@
 
 use super::{Builder, Reference, Target, add};
 use crate::diagnostic::Code;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, SUBROUTINE, abbreviated, keyword};
 use crate::model::{CoupledFreedom, Coupler, Gear};
 use crate::reading::Reading;
 use crate::source::Span;
-
-const SUBROUTINE: &str = "subroutines are not called";
 
 pub(super) const KEYWORDS: &[Keyword] = &[
     abbreviated("JOINTS", "J", Kind::Ids),
     abbreviated("TYPE", "T", Kind::Words),
     abbreviated("SCALES", "S", Kind::Reals(1, 3)),
     abbreviated("FUNCTION", "FU", Kind::Unsupported(SUBROUTINE)),
-    keyword("ROUTINE", Kind::Unsupported(SUBROUTINE)),
+    ROUTINE,
+    INTERFACE,
 ];
 
 /// COUPLER.

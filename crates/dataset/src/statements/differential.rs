@@ -1,7 +1,7 @@
 //! DIFF.
 
 use super::{Builder, add};
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::DifferentialEquation;
 use crate::reading::Reading;
 
@@ -10,7 +10,8 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     abbreviated("FUNCTION", "FU", Kind::Expression),
     abbreviated("IMPLICIT", "IM", Kind::Flag),
     abbreviated("STATIC_HOLD", "ST", Kind::Flag),
-    keyword("ROUTINE", Kind::Unsupported("subroutines are not called")),
+    ROUTINE,
+    INTERFACE,
 ];
 
 /// DIFF.

@@ -2,11 +2,10 @@
 
 use super::{Builder, Target, add};
 use crate::diagnostic::Code;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, SUBROUTINE, abbreviated, keyword};
 use crate::model::{Beam, BeamDamping, Bushing, Field};
 use crate::reading::Reading;
 
-const SUBROUTINE: &str = "subroutines are not called";
 const VECTOR: Kind = Kind::Reals(3, 3);
 const SIX: Kind = Kind::Reals(6, 6);
 const MATRIX: Kind = Kind::Reals(36, 36);
@@ -50,7 +49,8 @@ pub(super) const FIELD_KEYWORDS: &[Keyword] = &[
     abbreviated("LENGTH", "L", SIX),
     abbreviated("FORCE", "FO", SIX),
     abbreviated("FUNCTION", "FU", Kind::Unsupported(SUBROUTINE)),
-    keyword("ROUTINE", Kind::Unsupported(SUBROUTINE)),
+    ROUTINE,
+    INTERFACE,
 ];
 
 /// FIELD. What is left out is zero.

@@ -2,7 +2,7 @@
 
 use super::{Builder, Target, add};
 use crate::diagnostic::Code;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{ForceDirection, SingleForce, SpringDamper};
 use crate::reading::Reading;
 
@@ -13,7 +13,8 @@ pub(crate) const SINGLE_KEYWORDS: &[Keyword] = &[
     keyword("J", Kind::Id),
     abbreviated("ACTIONONLY", "A", Kind::Flag),
     abbreviated("FUNCTION", "FU", Kind::Expression),
-    keyword("ROUTINE", Kind::Unsupported("subroutines are not called")),
+    ROUTINE,
+    INTERFACE,
 ];
 
 const DIRECTIONS: [(&str, ForceDirection); 2] = [

@@ -94,14 +94,15 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
-    /// The identifier in an argument, which must name an element.
+    /// The identifier in an argument, which must name an element; 0, where an argument takes it,
+    /// stands for the ground and names none.
     pub(crate) fn refer(
         &mut self,
         reading: &Reading,
         keyword: &'static str,
         target: Target,
     ) -> Option<u32> {
-        let (id, span) = *reading.ids(keyword).first()?;
+        let (id, span) = *reading.ids(keyword).first().filter(|(id, _)| *id > 0)?;
         self.references.push(Reference { target, id, span });
         Some(id)
     }

@@ -2,7 +2,7 @@
 
 use super::{Builder, Target, add};
 use crate::diagnostic::Code;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{Motion, MotionDirection, MotionLevel, MotionTarget};
 use crate::reading::Reading;
 
@@ -24,7 +24,8 @@ pub(crate) const KEYWORDS: &[Keyword] = &[
     abbreviated("FUNCTION", "FU", Kind::Expression),
     keyword("ICDISP", Kind::Real),
     keyword("ICVEL", Kind::Real),
-    keyword("ROUTINE", Kind::Unsupported("subroutines are not called")),
+    ROUTINE,
+    INTERFACE,
 ];
 
 const DIRECTIONS: [(&str, MotionDirection); 6] = [

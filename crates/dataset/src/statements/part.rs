@@ -10,6 +10,8 @@ use crate::source::Span;
 
 const VECTOR: Kind = Kind::Reals(3, 3);
 const FLEXIBLE: &str = "parts are rigid";
+const SLIDING: &str = "markers are fixed on their parts; put a point on a curve with PTCV";
+const RELATIVE: &str = "give its place and axes in the frame of the part";
 
 pub(super) const PART_KEYWORDS: &[Keyword] = &[
     abbreviated("GROUND", "G", Kind::Flag),
@@ -139,8 +141,16 @@ pub(super) const MARKER_KEYWORDS: &[Keyword] = &[
     abbreviated("POINT_MASS", "POI", Kind::Id),
     abbreviated("FLEX_BODY", "FLE", Kind::Unsupported(FLEXIBLE)),
     keyword("FE_PART", Kind::Unsupported(FLEXIBLE)),
+    // NODE is the name of NODE_ID in the old Fortran solver.
+    keyword("NODE", Kind::Unsupported(FLEXIBLE)),
     abbreviated("NODE_ID", "NOD", Kind::Unsupported(FLEXIBLE)),
     keyword("NODE_LABEL", Kind::Unsupported(FLEXIBLE)),
+    keyword("CURVE", Kind::Unsupported(SLIDING)),
+    keyword("SURFACE", Kind::Unsupported(SLIDING)),
+    keyword("VX", Kind::Unsupported(SLIDING)),
+    keyword("VY", Kind::Unsupported(SLIDING)),
+    keyword("VZ", Kind::Unsupported(SLIDING)),
+    keyword("RM", Kind::Unsupported(RELATIVE)),
     abbreviated("FLOATING", "FLO", Kind::Flag),
     abbreviated("QP", "Q", VECTOR),
     abbreviated("REULER", "R", VECTOR),
@@ -151,7 +161,15 @@ pub(super) const MARKER_KEYWORDS: &[Keyword] = &[
 
 /// MARKER.
 pub(super) fn marker(reading: &mut Reading, builder: &mut Builder) {
-    let owners = ["PART", "POINT_MASS", "FLEX_BODY", "FE_PART"].map(|name| (name, name));
+    let owners = [
+        "PART",
+        "POINT_MASS",
+        "FLEX_BODY",
+        "FE_PART",
+        "CURVE",
+        "SURFACE",
+    ]
+    .map(|name| (name, name));
     let owner = match reading.one_flag(&owners) {
         Some("PART") => {
             MarkerOwner::Part(builder.refer(reading, "PART", Target::Part).unwrap_or(0))
@@ -160,8 +178,7 @@ pub(super) fn marker(reading: &mut Reading, builder: &mut Builder) {
             let point_mass = builder.refer(reading, "POINT_MASS", Target::PointMass);
             MarkerOwner::PointMass(point_mass.unwrap_or(0))
         }
-        Some("FLEX_BODY") => MarkerOwner::FlexBody(0),
-        Some(_) => MarkerOwner::FePart(0),
+        Some(_) => MarkerOwner::Refused,
         None => part_before(reading, builder),
     };
     let orientation = orientation(reading, "ZP", "XP", reading.vector("QP"));

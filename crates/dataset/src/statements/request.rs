@@ -3,8 +3,8 @@
 use super::{Builder, Target, add};
 use crate::arguments::free;
 use crate::diagnostic::Code;
-use crate::expression::Expression;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::expression::{Expr, Expression, Function};
+use crate::keywords::{INTERFACE, Keyword, Kind, SUBROUTINE, abbreviated, keyword};
 use crate::model::{Graphics, Request, RequestKind};
 use crate::reading::Reading;
 use crate::syntax::{TokenKind, join};
@@ -15,8 +15,9 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     abbreviated("ACCELERATION", "A", Kind::Flag),
     abbreviated("FORCE", "F", Kind::Flag),
     keyword("I", Kind::Id),
-    keyword("J", Kind::Id),
-    keyword("RM", Kind::Id),
+    // 0 stands for the ground.
+    keyword("J", Kind::Integer),
+    keyword("RM", Kind::Integer),
     keyword("F1", Kind::Expression),
     keyword("F2", Kind::Expression),
     keyword("F3", Kind::Expression),
@@ -25,13 +26,15 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     keyword("F6", Kind::Expression),
     keyword("F7", Kind::Expression),
     keyword("F8", Kind::Expression),
-    abbreviated(
-        "FUNCTION",
-        "FU",
-        Kind::Ignored("subroutines are not called"),
-    ),
-    abbreviated("ROUTINE", "RO", Kind::Ignored("subroutines are not called")),
+    keyword("VARIABLES", Kind::Ids),
+    abbreviated("FUNCTION", "FU", Kind::Ignored(SUBROUTINE)),
+    abbreviated("ROUTINE", "RO", Kind::Ignored(SUBROUTINE)),
+    INTERFACE,
     abbreviated("COMMENT", "C", Kind::Text),
+    keyword(
+        "COMMENTS",
+        Kind::Ignored("the comment of a request is COMMENT"),
+    ),
     abbreviated("TITLE", "T", Kind::Text),
     keyword("CNAMES", Kind::Strings),
     keyword("CLABELS", Kind::Strings),
@@ -51,7 +54,7 @@ pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
     ]);
     let kind = match standard {
         Some(kind) => {
-            for function in FUNCTIONS {
+            for function in FUNCTIONS.into_iter().chain(["VARIABLES"]) {
                 if reading.has(function) {
                     let span = reading.place(function);
                     let message = format!("{} reports one thing only", reading.label());
@@ -70,13 +73,17 @@ pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
             }
         }
         None => {
-            let functions: [Option<Expression>; 8] =
-                FUNCTIONS.map(|function| reading.expression(function));
+            let mut functions = FUNCTIONS.map(|function| reading.expression(function));
+            if reading.has("VARIABLES") {
+                reading.exclude("VARIABLES", &FUNCTIONS);
+                functions = variables(reading);
+            }
             RequestKind::Functions(Box::new(functions))
         }
     };
     let calls_subroutine = ["FUNCTION", "ROUTINE"].iter().any(|name| reading.has(name));
-    let reports = standard.is_some() || FUNCTIONS.iter().any(|function| reading.has(function));
+    let mut components = FUNCTIONS.iter().chain(&["VARIABLES"]);
+    let reports = standard.is_some() || components.any(|component| reading.has(component));
     if !reports {
         if !calls_subroutine {
             let message = format!("{} reports nothing", reading.label());
@@ -84,7 +91,7 @@ pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
             reading
                 .diagnostics
                 .error(Code::MissingArgument, span, message)
-                .help("add DISPLACEMENT, VELOCITY, ACCELERATION, FORCE or F1 to F8");
+                .help("add DISPLACEMENT, VELOCITY, ACCELERATION, FORCE, VARIABLES or F1 to F8");
         }
         return;
     }
@@ -114,6 +121,28 @@ pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
     );
 }
 
+/// The values of the variables that a request lists, one for each of its components.
+fn variables(reading: &mut Reading) -> [Option<Expression>; 8] {
+    let ids = reading.ids("VARIABLES").to_vec();
+    if let Some((_, ninth)) = ids.get(FUNCTIONS.len()) {
+        let message = "a REQUEST has eight components";
+        reading
+            .diagnostics
+            .error(Code::InvalidValue, *ninth, message)
+            .help("list the other variables in another REQUEST");
+    }
+    std::array::from_fn(|place| {
+        let (id, span) = *ids.get(place)?;
+        let root = Expr::Call {
+            function: Function::Varval,
+            arguments: vec![Expr::Number(f64::from(id))],
+            span,
+        };
+        let text = format!("VARVAL({id})");
+        Some(Expression { span, root, text })
+    })
+}
+
 /// GRAPHICS: the first flag is the type, everything else is kept as written.
 pub(super) fn graphics(reading: &mut Reading, builder: &mut Builder) {
     let source = reading.diagnostics.source;
@@ -125,11 +154,8 @@ pub(super) fn graphics(reading: &mut Reading, builder: &mut Builder) {
             None if kind.is_empty() => kind = argument.name,
             None => arguments.push((argument.name, String::new())),
             Some(TokenKind::Equals) => arguments.push((argument.name, join(source, &value[1..]))),
-            Some(_) => {
-                let span = value[0].span();
-                let message = format!("expected `=` or `,` behind {}", argument.name);
-                reading.diagnostics.error(Code::Syntax, span, message);
-            }
+            // A picture has no faults that matter.
+            Some(_) => arguments.push((argument.name, join(source, value))),
         }
     }
     let graphics = Graphics {
@@ -146,6 +172,7 @@ pub(super) fn graphics(reading: &mut Reading, builder: &mut Builder) {
 }
 
 const NOT_WRITTEN: &str = "stiction does not write this file or table";
+const ANGLES: &str = "angles are written as PSI, THETA and PHI";
 const FORMAT: &str = "the format of output files is fixed";
 const ALL_WRITTEN: &str = "all results are written";
 
@@ -160,7 +187,20 @@ pub(super) const OUTPUT_KEYWORDS: &[Keyword] = &[
     abbreviated("NOSEPARATOR", "NOS", Kind::Ignored(FORMAT)),
     abbreviated("OSFORMAT", "OS", Kind::Ignored(FORMAT)),
     abbreviated("TELETYPE", "TE", Kind::Ignored(FORMAT)),
+    keyword("VPRINT", Kind::Ignored(NOT_WRITTEN)),
+    keyword("APRINT", Kind::Ignored(NOT_WRITTEN)),
+    keyword("FPRINT", Kind::Ignored(NOT_WRITTEN)),
     abbreviated("YPRINT", "Y", Kind::Ignored(NOT_WRITTEN)),
+    keyword("YPR", Kind::Ignored(ANGLES)),
+    keyword("ICSAVE", Kind::Ignored(NOT_WRITTEN)),
+    keyword("DACSAVE", Kind::Ignored(NOT_WRITTEN)),
+    keyword("MATSAVE", Kind::Ignored(NOT_WRITTEN)),
+    keyword("RPCSAVE", Kind::Ignored(NOT_WRITTEN)),
+    keyword("LOADS", Kind::Ignored(NOT_WRITTEN)),
+    keyword("MODAL_DEFORMATION", Kind::Ignored(NOT_WRITTEN)),
+    keyword("NODAL_DEFORMATION", Kind::Ignored(NOT_WRITTEN)),
+    keyword("STRAIN", Kind::Ignored(NOT_WRITTEN)),
+    keyword("STRESS", Kind::Ignored(NOT_WRITTEN)),
     abbreviated("DSCALE", "DS", Kind::Ignored(FORMAT)),
     abbreviated("VSCALE", "VS", Kind::Ignored(FORMAT)),
     abbreviated("ASCALE", "AS", Kind::Ignored(FORMAT)),
@@ -180,6 +220,12 @@ pub(super) const RESULTS_KEYWORDS: &[Keyword] = &[
     abbreviated("FORMATTED", "FORM", Kind::Flag),
     keyword("XRF", Kind::Flag),
     keyword("DECIMALPLACES", Kind::Integer),
+    keyword("ROUNDOFF", Kind::Ignored(FORMAT)),
+    keyword("SCIENTIFIC", Kind::Ignored(FORMAT)),
+    keyword("SIGNIFICANTFIGURES", Kind::Ignored(FORMAT)),
+    keyword("TRAILINGZEROS", Kind::Ignored(FORMAT)),
+    keyword("ZEROTHRESHOLD", Kind::Ignored(FORMAT)),
+    keyword("HDF5", Kind::Ignored(FORMAT)),
     abbreviated("COMMENT", "COM", Kind::Text),
     abbreviated("NOACCELERATIONS", "NOACC", Kind::Ignored(ALL_WRITTEN)),
     abbreviated("NOAPPLIEDFORCES", "NOAPP", Kind::Ignored(ALL_WRITTEN)),

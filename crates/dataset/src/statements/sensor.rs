@@ -1,12 +1,11 @@
 //! SENSOR.
 
 use super::{Builder, add};
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, SUBROUTINE, abbreviated, keyword};
 use crate::model::{Comparison, Sensor};
 use crate::reading::Reading;
 
-const OUTPUTS: &str = "sensors do not change output times and steps";
-const SUBROUTINE: &str = "subroutines are not called";
+const FOUND: &str = "events are looked for at outputs";
 
 pub(super) const KEYWORDS: &[Keyword] = &[
     keyword("EQ", Kind::Flag),
@@ -35,12 +34,23 @@ pub(super) const KEYWORDS: &[Keyword] = &[
         "Y",
         Kind::Ignored("it asks for diagnostics of another program"),
     ),
-    keyword("DT", Kind::Unsupported(OUTPUTS)),
-    abbreviated("STEPSIZE", "S", Kind::Unsupported(OUTPUTS)),
-    abbreviated("ROUTINE", "RO", Kind::Unsupported(SUBROUTINE)),
+    abbreviated("BISECTION", "B", Kind::Ignored(FOUND)),
+    abbreviated("TERROR", "T", Kind::Ignored(FOUND)),
+    keyword(
+        "DT",
+        Kind::Ignored("outputs stay where SIMULATE asks for them"),
+    ),
+    abbreviated(
+        "STEPSIZE",
+        "S",
+        Kind::Ignored("the integrator chooses its steps by its error"),
+    ),
+    ROUTINE,
+    keyword("EVALUATE_ROUTINE", Kind::Ignored(SUBROUTINE)),
+    INTERFACE,
 ];
 
-/// Without ERROR; from the documentation of Adams as remembered.
+/// Without ERROR: the documentation of the SENSOR statement.
 const DEFAULT_ERROR: f64 = 1e-3;
 
 /// SENSOR.
@@ -51,7 +61,7 @@ pub(super) fn sensor(reading: &mut Reading, builder: &mut Builder) {
         Comparison::LessOrEqual,
     ]
     .map(|comparison| (comparison.keyword(), comparison));
-    let comparison = reading.required_flag("a comparison", &comparisons);
+    let comparison = reading.one_flag(&comparisons);
     reading.require("VALUE");
     let sensor = Sensor {
         header: reading.header(),

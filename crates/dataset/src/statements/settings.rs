@@ -2,12 +2,15 @@
 
 use super::Builder;
 use crate::diagnostic::Code;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{Keyword, Kind, SUBROUTINE, abbreviated, keyword};
 use crate::model::{
     Corrector, Equilibrium, IndexReduction, InitialConditions, Integrator, IntegratorMethod,
     Kinematics, Preferences,
 };
 use crate::reading::Reading;
+
+const STIFF: &str = "stiction integrates by backward differentiation";
+const TOLERANCE: &str = "ERROR alone is the tolerance";
 
 pub(crate) const INTEGRATOR_KEYWORDS: &[Keyword] = &[
     keyword("GSTIFF", Kind::Flag),
@@ -30,6 +33,12 @@ pub(crate) const INTEGRATOR_KEYWORDS: &[Keyword] = &[
     abbreviated("CORRECTOR", "C", Kind::Word),
     abbreviated("INTERPOLATE", "IN", Kind::Word),
     keyword("ADAPTIVITY", Kind::Real),
+    keyword("ABAM", Kind::Ignored(STIFF)),
+    keyword("CONSTANT_BDF", Kind::Ignored(STIFF)),
+    keyword("DSTIFF", Kind::Ignored(STIFF)),
+    keyword("RKF45", Kind::Ignored(STIFF)),
+    keyword("MAXERR", Kind::Ignored(TOLERANCE)),
+    keyword("SCALE", Kind::Ignored(TOLERANCE)),
     keyword("ALPHA", Kind::Real),
     keyword("BETA", Kind::Real),
     keyword("GAMMA", Kind::Real),
@@ -53,6 +62,8 @@ pub(crate) fn integrator(reading: &mut Reading) -> Integrator {
     let correctors = [
         ("ORIGINAL", Corrector::Original),
         ("MODIFIED", Corrector::Modified),
+        // The original one that is never changed by itself for the modified one.
+        ("ORIG_CONSTANT", Corrector::Original),
     ];
     if let (Some(hmin), Some(hmax)) = (reading.real("HMIN"), reading.real("HMAX"))
         && hmin > hmax
@@ -88,6 +99,9 @@ pub(super) fn integrator_statement(reading: &mut Reading, builder: &mut Builder)
     builder.dataset.integrator = Some(integrator(reading));
 }
 
+const ITERATION: &str = "equilibria are found by iteration";
+const INNER: &str = "the iteration has no inner one";
+
 pub(crate) const EQUILIBRIUM_KEYWORDS: &[Keyword] = &[
     abbreviated("ALIMIT", "AL", Kind::Real),
     abbreviated("TLIMIT", "TL", Kind::Real),
@@ -101,10 +115,13 @@ pub(crate) const EQUILIBRIUM_KEYWORDS: &[Keyword] = &[
     keyword("RTOL", Kind::Real),
     keyword("MAXITL", Kind::Integer),
     keyword("STATIC", Kind::Flag),
-    keyword(
-        "DYNAMIC",
-        Kind::Unsupported("equilibria are found by iteration"),
-    ),
+    keyword("DYNAMIC", Kind::Ignored(ITERATION)),
+    keyword("ACCELERATION_ERROR", Kind::Ignored(ITERATION)),
+    keyword("GLOBAL_DAMPING", Kind::Ignored(ITERATION)),
+    keyword("KINETIC_ENERGY_ERROR", Kind::Ignored(ITERATION)),
+    keyword("SETTLING_TIME", Kind::Ignored(ITERATION)),
+    keyword("ETA", Kind::Ignored(INNER)),
+    keyword("ETAMAX", Kind::Ignored(INNER)),
 ];
 
 /// The arguments of EQUILIBRIUM, as a statement or as a command.
@@ -187,13 +204,16 @@ pub(super) fn initial_conditions(reading: &mut Reading, builder: &mut Builder) {
 }
 
 const NO_CONTACT: &str = "contacts are not simulated";
+const RIGID: &str = "parts are rigid";
 
 pub(super) const PREFERENCES_KEYWORDS: &[Keyword] = &[
     keyword("SIMFAIL", Kind::Word),
     keyword("CONTACT_FACETING_TOLERANCE", Kind::Ignored(NO_CONTACT)),
     keyword("CONTACT_GEOMETRY_LIBRARY", Kind::Ignored(NO_CONTACT)),
-    keyword("FLEX_LIMIT_CHECK_ACTION", Kind::Ignored("parts are rigid")),
-    keyword("LIBPATH", Kind::Ignored("subroutines are not called")),
+    keyword("FLEX_BODY_FORMULATION", Kind::Ignored(RIGID)),
+    keyword("FLEX_LIMIT_CHECK", Kind::Ignored(RIGID)),
+    keyword("FLEX_LIMIT_CHECK_ACTION", Kind::Ignored(RIGID)),
+    keyword("LIBPATH", Kind::Ignored(SUBROUTINE)),
     keyword("NTHREADS", Kind::Ignored("one thread is used")),
     keyword(
         "STATUS_MESSAGE",

@@ -2,7 +2,7 @@
 
 use super::{Builder, add};
 use crate::diagnostic::Code;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{Spline, SplineCurve};
 use crate::reading::Reading;
 use crate::source::Span;
@@ -20,7 +20,8 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     abbreviated("FILE", "F", Kind::Unsupported(FILE)),
     abbreviated("BLOCK", "B", Kind::Unsupported(FILE)),
     abbreviated("CHANNEL", "C", Kind::Unsupported(FILE)),
-    keyword("ROUTINE", Kind::Unsupported("subroutines are not called")),
+    ROUTINE,
+    INTERFACE,
 ];
 
 /// SPLINE.

@@ -73,6 +73,8 @@ const fn unsupported(full: &'static str, least: &'static str) -> Rule {
 /// Why a statement that only holds data is harmless: whatever could use it is refused.
 const DATA: &str = "nothing that is simulated can use it";
 
+const ONLY_REPORTS: &str = "it only reports distances";
+
 /// Every statement of the language.
 pub(crate) const STATEMENTS: &[Rule] = &[
     single("UNITS", "UNI", units::KEYWORDS, units::units),
@@ -195,9 +197,17 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     ignored("MATERIAL", "rigid parts give their own mass and inertia"),
     ignored("SECTION", "only flexible parts have a cross-section"),
     ignored("DEBUG", "it asks for diagnostics of another program"),
+    ignored("ENVIRONMENT", "stiction reads no environment variables"),
     ignored("LSOLVER", "stiction has one linear solver"),
     ignored("LIST", "stiction prints no listing"),
     ignored("NOLIST", "stiction prints no listing"),
+    ignored("CLEARANCE", ONLY_REPORTS),
+    ignored("FEMDATA", "it writes loads for other programs"),
+    ignored("MADATA", "it writes modal data for another program"),
+    ignored(
+        "PSTATE",
+        "stiction chooses the coordinates of linear models",
+    ),
     ignored(
         "MREQUEST",
         "it only reports; write a REQUEST for each element",
@@ -205,7 +215,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("ADAMS_BUSHING", "ADAMS_BUSHING"),
     unsupported("CONTACT", "CON"),
     unsupported("CVCV", "CVCV"),
-    unsupported("FEMDATA", "FEM"),
+    unsupported("EXTERNAL_SYSTEM", "EXT"),
     unsupported("FE_LOAD", "FE_L"),
     unsupported("FE_NODE", "FE_N"),
     unsupported("FE_PART", "FE_P"),

@@ -1,14 +1,15 @@
 //! VARIABLE, PINPUT and POUTPUT.
 
 use super::{Builder, Reference, Target, add};
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{PlantPort, Variable};
 use crate::reading::Reading;
 
 pub(crate) const KEYWORDS: &[Keyword] = &[
     keyword("IC", Kind::Real),
     abbreviated("FUNCTION", "FU", Kind::Expression),
-    keyword("ROUTINE", Kind::Unsupported("subroutines are not called")),
+    ROUTINE,
+    INTERFACE,
 ];
 
 /// VARIABLE.

@@ -3,7 +3,7 @@
 use super::{Builder, Target, add};
 use crate::diagnostic::Code;
 use crate::expression::Expression;
-use crate::keywords::{Keyword, Kind, abbreviated, keyword};
+use crate::keywords::{INTERFACE, Keyword, Kind, abbreviated, keyword};
 use crate::model::VectorForce;
 use crate::reading::Reading;
 
@@ -24,11 +24,14 @@ const TXYZ: Keyword = keyword("TXYZ", Kind::Unsupported(VECTOR));
 const FUNCTION: Keyword = abbreviated("FUNCTION", "FU", Kind::Unsupported(SUBROUTINE));
 const ROUTINE: Keyword = keyword("ROUTINE", Kind::Unsupported(SUBROUTINE));
 
-pub(crate) const FORCE_KEYWORDS: &[Keyword] = &[I, JFLOAT, RM, FX, FY, FZ, FXYZ, FUNCTION, ROUTINE];
-pub(crate) const TORQUE_KEYWORDS: &[Keyword] =
-    &[I, JFLOAT, RM, TX, TY, TZ, TXYZ, FUNCTION, ROUTINE];
+pub(crate) const FORCE_KEYWORDS: &[Keyword] = &[
+    I, JFLOAT, RM, FX, FY, FZ, FXYZ, FUNCTION, ROUTINE, INTERFACE,
+];
+pub(crate) const TORQUE_KEYWORDS: &[Keyword] = &[
+    I, JFLOAT, RM, TX, TY, TZ, TXYZ, FUNCTION, ROUTINE, INTERFACE,
+];
 pub(crate) const GENERAL_KEYWORDS: &[Keyword] = &[
-    I, JFLOAT, RM, FX, FY, FZ, TX, TY, TZ, FXYZ, TXYZ, FUNCTION, ROUTINE,
+    I, JFLOAT, RM, FX, FY, FZ, TX, TY, TZ, FXYZ, TXYZ, FUNCTION, ROUTINE, INTERFACE,
 ];
 
 /// The components that are given; one that the statement has no argument for is not.

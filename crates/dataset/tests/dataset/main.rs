@@ -12,3 +12,4 @@ mod misuse;
 mod mutations;
 mod shared;
 mod splines;
+mod writers;

@@ -151,7 +151,7 @@ impl Lowering<'_> {
                 let point = self.dataset.point_masses.by_id(id)?;
                 frame::axes(&point.orientation, &point.qg)
             }
-            MarkerOwner::FlexBody(_) | MarkerOwner::FePart(_) => return None,
+            MarkerOwner::Refused => return None,
         };
         Some(owner * axes)
     }
@@ -196,7 +196,7 @@ fn body_places(dataset: &Dataset) -> impl Fn(MarkerOwner) -> Option<usize> {
     move |owner| match owner {
         MarkerOwner::Part(id) => dataset.parts.position(id).and_then(|place| places[place]),
         MarkerOwner::PointMass(id) => dataset.point_masses.position(id).map(|place| next + place),
-        MarkerOwner::FlexBody(_) | MarkerOwner::FePart(_) => None,
+        MarkerOwner::Refused => None,
     }
 }
 
