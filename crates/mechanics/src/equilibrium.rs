@@ -359,7 +359,7 @@ fn largest_of(values: &[f64]) -> f64 {
 
 impl System {
     /// The larger of weights, forces and reactions at the instant evaluated last.
-    fn typical_force(&mut self, multipliers: &[f64]) -> f64 {
+    pub(crate) fn typical_force(&mut self, multipliers: &[f64]) -> f64 {
         let weights = self.model.bodies.iter().map(|body| body.mass);
         let weight = weights.sum::<f64>() * self.model.gravity.norm();
         let applied: Vec<f64> = (0..self.model.forces.len())

@@ -97,6 +97,7 @@ mod instant;
 #[cfg(test)]
 mod jacobian_test;
 mod joint_friction;
+pub mod linearization;
 pub mod measure;
 pub mod model;
 pub mod rotation;

@@ -23,13 +23,13 @@ use crate::system::System;
 /// A model with its state.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    system: System,
-    state: State,
+    pub(crate) system: System,
+    pub(crate) state: State,
     /// Rates of velocities and of differential states.
-    accelerations: Vec<f64>,
+    pub(crate) accelerations: Vec<f64>,
     /// Multipliers and algebraic variables.
-    multipliers: Vec<f64>,
-    scales: Scales,
+    pub(crate) multipliers: Vec<f64>,
+    pub(crate) scales: Scales,
     statistics: Statistics,
     /// What the formula said of the bristles at the present instant, see [`Simulation::take`].
     bristle_past: Vec<f64>,

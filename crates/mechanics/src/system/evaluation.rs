@@ -150,7 +150,7 @@ impl System {
     }
 
     /// A general constraint: value and gradient by measures, rates along the motion by jets.
-    fn evaluate_function(&mut self, place: usize) {
+    pub(crate) fn evaluate_function(&mut self, place: usize) {
         let Owner::General(general) = self.constraints[place].owner else {
             return;
         };

@@ -12,6 +12,7 @@ mod friction_cases;
 mod frictionless;
 mod instants;
 mod invariance;
+mod linearization;
 mod oracle;
 mod redundancy;
 mod runs;

@@ -1,0 +1,244 @@
+//! Eigenvalues and mode shapes of a linearised model.
+//!
+//! The eigenvalues of `λ² M + λ D + K` are those of a matrix of twice the size, or where there is no
+//! damping the roots of those of `−M⁻¹K`. Parts without mass make `M` singular and some eigenvalues
+//! infinite; the others are then found by their distance from a shift,
+//! `(A − σE)⁻¹E x = x/(λ − σ)` for `E ẋ = A x` (Golub and Van Loan, *Matrix Computations*, section
+//! 7.7).
+
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
+use nalgebra::{Complex, DMatrix, DVector, Schur};
+
+use super::Linearization;
+use crate::state::VELOCITIES;
+
+/// A mass matrix whose smallest pivot is this part of its largest is singular.
+const MASSLESS: f64 = 1e-13;
+/// Eigenvalues beyond this multiple of the typical rate of a model with parts without mass are
+/// infinite. They come in defective pairs, which rounding moves by the root of its size.
+const INFINITE: f64 = 1e6;
+/// Iterations for each row of the matrix before its eigenvalues are given up.
+const ITERATIONS: usize = 200;
+/// Distance of the shift of the inverse iteration from its eigenvalue, relative.
+const NEAR: f64 = 1e-9;
+
+/// A natural motion `Re(shape · exp(value · time))`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Eigenvalue, 1/time; of a conjugate pair the one with the positive imaginary part.
+    pub value: Complex<f64>,
+    /// Displacement (length) and rotation (radians) of every body along ground axes, six numbers
+    /// each, such that the largest is one; rotations count by the model's length. Empty where it was
+    /// not asked for.
+    pub shape: Vec<Complex<f64>>,
+}
+
+/// Eigenvalues that could not be found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModesError {
+    /// A part without mass can move without a force.
+    Indefinite,
+    /// The iteration for the eigenvalues did not converge, or met what is not a number.
+    NotConverged,
+}
+
+impl std::fmt::Display for ModesError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Indefinite => "a part without mass can move without a force against it",
+            Self::NotConverged => "the iteration for the eigenvalues did not converge",
+        })
+    }
+}
+
+impl std::error::Error for ModesError {}
+
+impl Linearization {
+    /// Without dampers: of the damping matrix the gyroscopic (skew-symmetric) part stays.
+    #[must_use]
+    pub fn without_damping(mut self) -> Self {
+        self.damping = 0.5 * (&self.damping - self.damping.transpose());
+        self
+    }
+
+    /// The modes: real eigenvalues and then conjugate pairs, each by magnitude. `shapes` says whether
+    /// their shapes are wanted.
+    ///
+    /// # Errors
+    /// [`ModesError`].
+    pub fn modes(&self, shapes: bool) -> Result<Vec<Mode>, ModesError> {
+        let mut values = self.eigenvalues()?;
+        values.retain(|value| value.im >= 0.0);
+        values.sort_by(|a, b| {
+            let pair = |value: &Complex<f64>| value.im > 0.0;
+            pair(a)
+                .cmp(&pair(b))
+                .then(a.norm().total_cmp(&b.norm()))
+                .then(a.re.total_cmp(&b.re))
+        });
+        let mut modes: Vec<Mode> = Vec::with_capacity(values.len());
+        let mut vectors: Vec<DVector<Complex<f64>>> = Vec::new();
+        for (place, &value) in values.iter().enumerate() {
+            let shape = if shapes {
+                let same = values[..place].iter().rev();
+                let close = |other: &&Complex<f64>| {
+                    (**other - value).norm() <= 1e-6 * (value.norm() + self.rate())
+                };
+                let count = same.take_while(close).count();
+                let vector = self.vector(value, &vectors[place - count..], place)?;
+                let shape = self.shape(&vector);
+                vectors.push(vector);
+                shape
+            } else {
+                Vec::new()
+            };
+            modes.push(Mode { value, shape });
+        }
+        Ok(modes)
+    }
+
+    /// A typical rate: root of the ratio of stiffness and mass, or ratio of damping and mass.
+    fn rate(&self) -> f64 {
+        let mass = self.mass.norm();
+        let rate = (self.stiffness.norm() / mass)
+            .sqrt()
+            .max(self.damping.norm() / mass);
+        if rate > 0.0 && rate.is_finite() {
+            rate
+        } else {
+            1.0
+        }
+    }
+
+    fn eigenvalues(&self) -> Result<Vec<Complex<f64>>, ModesError> {
+        let n = self.coordinates.len();
+        if n == 0 {
+            return Ok(Vec::new());
+        }
+        // Rotations in units of the length make the pivots of the mass comparable.
+        let unit = |k: usize| {
+            let turns = self.coordinates[k].component >= 3;
+            if turns { 1.0 / self.length } else { 1.0 }
+        };
+        let scaled = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(n, n, |r, c| unit(r) * matrix[(r, c)] * unit(c))
+        };
+        let (mass, damping) = (scaled(&self.mass), scaled(&self.damping));
+        let stiffness = scaled(&self.stiffness);
+        let factors = mass.clone().full_piv_lu();
+        let pivots = factors.u().diagonal().abs();
+        let regular = pivots.min() > MASSLESS * pivots.max();
+        let inverse = |matrix: &DMatrix<f64>| factors.solve(matrix);
+        if let (true, Some(stiffness), Some(damping)) =
+            (regular, inverse(&-&stiffness), inverse(&-&damping))
+        {
+            if damping.iter().all(|entry| *entry == 0.0) {
+                return Ok(roots(&of_matrix(stiffness)?, n));
+            }
+            let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+            matrix.view_mut((0, n), (n, n)).fill_with_identity();
+            matrix.view_mut((n, 0), (n, n)).copy_from(&stiffness);
+            matrix.view_mut((n, n), (n, n)).copy_from(&damping);
+            return of_matrix(matrix);
+        }
+        let rate = self.rate();
+        let shift = 0.7 * rate;
+        let mut right = DMatrix::zeros(2 * n, 2 * n);
+        right.view_mut((0, 0), (n, n)).fill_with_identity();
+        right.view_mut((n, n), (n, n)).copy_from(&mass);
+        let mut left = -shift * &right;
+        let mut ones = left.view_mut((0, n), (n, n));
+        ones.fill_with_identity();
+        let mut below = left.view_mut((n, 0), (n, n));
+        below -= stiffness;
+        let mut last = left.view_mut((n, n), (n, n));
+        last -= damping;
+        let matrix = left.lu().solve(&right).ok_or(ModesError::Indefinite)?;
+        let distances = of_matrix(matrix)?;
+        let values = distances
+            .into_iter()
+            .filter(|distance| distance.norm() * INFINITE * rate > 1.0)
+            .map(|distance| distance.inv() + shift);
+        Ok(values.collect())
+    }
+
+    /// The coordinates of a mode by inverse iteration, perpendicular to `others` of its eigenvalue.
+    fn vector(
+        &self,
+        value: Complex<f64>,
+        others: &[DVector<Complex<f64>>],
+        seed: usize,
+    ) -> Result<DVector<Complex<f64>>, ModesError> {
+        let n = self.coordinates.len();
+        let near = value + Complex::new(NEAR, NEAR) * (value.norm() + 1e-3 * self.rate());
+        let complex = |matrix: &DMatrix<f64>| matrix.map(|entry| Complex::new(entry, 0.0));
+        let pencil = complex(&self.mass) * (near * near)
+            + complex(&self.damping) * near
+            + complex(&self.stiffness);
+        let factors = pencil.lu();
+        // No start that a symmetry of the model makes perpendicular to the mode.
+        let start = |k: usize, _| Complex::new(1.0 + ((k * (seed + 2)) as f64).sin(), 0.0);
+        let mut vector = DVector::from_fn(n, start);
+        for _ in 0..3 {
+            vector = factors.solve(&vector).ok_or(ModesError::NotConverged)?;
+            for other in others {
+                let part = other.dotc(&vector);
+                vector -= other * part;
+            }
+            let size = vector.norm();
+            if !(size > 0.0 && size.is_finite()) {
+                return Err(ModesError::NotConverged);
+            }
+            vector /= Complex::new(size, 0.0);
+        }
+        Ok(vector)
+    }
+
+    /// The motion of all bodies by the coordinates of a mode.
+    fn shape(&self, vector: &DVector<Complex<f64>>) -> Vec<Complex<f64>> {
+        let motions = self.motions.map(|entry| Complex::new(entry, 0.0));
+        let shape = motions * vector;
+        let size = |k: usize| {
+            let turns = k % VELOCITIES >= 3;
+            shape[k].norm() * if turns { self.length } else { 1.0 }
+        };
+        let largest = (0..shape.len()).max_by(|&a, &b| size(a).total_cmp(&size(b)));
+        let unit = largest.map_or(Complex::new(1.0, 0.0), |k| shape[k]);
+        shape.iter().map(|component| component / unit).collect()
+    }
+}
+
+/// Eigenvalues of a matrix.
+fn of_matrix(mut matrix: DMatrix<f64>) -> Result<Vec<Complex<f64>>, ModesError> {
+    let finite = matrix.iter().all(|entry| entry.is_finite());
+    if !finite {
+        return Err(ModesError::NotConverged);
+    }
+    balance_parlett_reinsch(&mut matrix);
+    let rows = matrix.nrows();
+    let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS * rows);
+    let schur = schur.ok_or(ModesError::NotConverged)?;
+    Ok(schur.complex_eigenvalues().iter().copied().collect())
+}
+
+/// Both roots of every square; a square that is the rounding of the largest is zero.
+fn roots(squares: &[Complex<f64>], rows: usize) -> Vec<Complex<f64>> {
+    let largest = squares
+        .iter()
+        .map(|square| square.norm())
+        .fold(0.0, f64::max);
+    let rounding = 4.0 * rows as f64 * f64::EPSILON * largest;
+    let each = squares.iter().flat_map(|square| {
+        if square.norm() <= rounding {
+            return [Complex::new(0.0, 0.0); 2];
+        }
+        // The root of a negative real number has no real part, whatever the sign of its zero.
+        let root = if square.im == 0.0 && square.re < 0.0 {
+            Complex::new(0.0, (-square.re).sqrt())
+        } else {
+            square.sqrt()
+        };
+        [root, -root]
+    });
+    each.collect()
+}
