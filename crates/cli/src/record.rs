@@ -7,7 +7,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use stiction::{
-    EnergyBalance, EnergyTerm, FrictionReport, Message, Outcome, Project, RunReport, Severity,
+    EnergyBalance, EnergyTerm, FrictionReport, Message, ModeReport, Outcome, Project, RunReport,
+    Severity,
 };
 
 use crate::arguments::RunArguments;
@@ -120,6 +121,7 @@ pub(crate) fn write(
             "residuals": report.statistics.work.residuals,
             "factorisations": report.statistics.work.factorisations,
         },
+        "modes": report.modes.iter().map(modes_json).collect::<Vec<_>>(),
         "energy_balance": balance,
         "frictions": report.frictions.iter().map(friction_json).collect::<Vec<_>>(),
     });
@@ -141,6 +143,12 @@ fn balance_json(balance: &EnergyBalance) -> Value {
         "residual_share": balance.residual_share(),
         "exchanged": balance.exchanged,
     })
+}
+
+/// Eigenvalues as pairs of real and imaginary part, cycles/second.
+fn modes_json(report: &ModeReport) -> Value {
+    let values: Vec<[f64; 2]> = report.modes.iter().map(|mode| mode.value).collect();
+    json!({ "time": report.time, "eigenvalues": values })
 }
 
 fn friction_json(report: &FrictionReport) -> Value {

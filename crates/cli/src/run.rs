@@ -134,6 +134,9 @@ fn tell(folder: &Path, report: &RunReport) {
     for warning in record::beside_the_outcome(report) {
         text += &warning.to_string();
     }
+    for modes in &report.modes {
+        text += &format!("\n{modes}");
+    }
     let table = friction_table(&report.frictions);
     if !table.is_empty() {
         text += &format!("\n{table}");

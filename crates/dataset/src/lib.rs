@@ -15,7 +15,7 @@
 //! | a statement | its row in `statements/table.rs`, its reader beside the others, its struct in `model` |
 //! | an argument | its row in the `KEYWORDS` of the statement |
 //! | a run-time function | its row in `expression/function.rs` |
-//! | a command | its row in `commands.rs` |
+//! | a command | its row in `commands/mod.rs` |
 //! | a rule of the whole model | `checks` |
 //! | a malformed file and its message | `tests/cases` |
 

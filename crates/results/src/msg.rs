@@ -140,6 +140,27 @@ impl<W: Write> MessageWriter<W> {
         self.write("\n  End Simulation\n\n")
     }
 
+    /// Table of eigenvalues at a time: real and imaginary part in cycles/second, of a conjugate pair
+    /// the one with the positive imaginary part.
+    pub fn eigenvalues(&mut self, time: f64, values: &[[f64; 2]]) -> io::Result<()> {
+        let mut text = format!(
+            "\n  E I G E N V A L U E S  at time = {}\n    Number      Real(cycles/second)     \
+             Imag.(cycles/second)\n",
+            scientific(time, 5)
+        );
+        for (place, [real, imaginary]) in values.iter().enumerate() {
+            let (number, real) = (place + 1, scientific(*real, 10));
+            text += &format!("{number:>10}   {real:>20}");
+            if *imaginary != 0.0 {
+                text += &format!("  +/- {:>20}", scientific(*imaginary, 10));
+            }
+            text.push('\n');
+        }
+        // Readers take the table to end at an empty line.
+        text.push('\n');
+        self.write(&text)
+    }
+
     /// End of a run that went through: wall and processor time in seconds.
     pub fn finish(&mut self, elapsed: f64, cpu: f64) -> io::Result<()> {
         self.write("Finished -----\n")?;

@@ -93,6 +93,9 @@ fn write_messages(path: &Path) {
         .unwrap();
     }
     log.end_simulation().unwrap();
+    log.eigenvalues(0.5, &[[-2.5, 0.0], [-0.5, 1.25], [0.0, 2.0]])
+        .unwrap();
+    log.note("what follows is no part of the table").unwrap();
     log.error("one").unwrap();
     log.error("two\nlines").unwrap();
     log.finish(0.11, 0.14).unwrap();
@@ -113,6 +116,8 @@ print(series["time"], series["DRIVE"]["ANGLE"], sorted(units["DRIVE"].items()))
 print(msg.get_timestamps(log)[2], len(msg.get_timestamps(log)))
 print(msg.check_if_finished(log), msg.check_for_errors(log), len(msg.get_errors(log)))
 print(msg.uses_fortran_solver(log), msg.get_process_id(log) > 0, msg.get_runtime_summary(log))
+modes = msg.get_modes(log)
+print(modes["Real"], modes["Imag"])
 "#;
 
 #[test]
@@ -143,6 +148,7 @@ fn adamspy_reads_our_files() {
         [0.25, 0.5, 0.75] [133.625, 258.625, 383.625] [('ANGLE', 'ANGLE'), ('TORQUE', 'TORQUE')]\n\
         [0.5, 0.001, 7, 5, 2, 83.5] 3\n\
         True True 2\n\
-        False True [0.11, 0.14, 127.27]\n";
+        False True [0.11, 0.14, 127.27]\n\
+        [-0.5, 0.0] [1.25, 2.0]\n";
     assert_eq!(facts, expected);
 }

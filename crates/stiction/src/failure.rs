@@ -73,6 +73,14 @@ pub(crate) fn of_equilibrium(dataset: &Dataset, source: &Source, error: &RunErro
     )
 }
 
+/// A model that could not be linearised.
+pub(crate) fn of_linearization(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
+    let text = format!("LINEAR failed {error}");
+    let help = "linearise where the model is at rest, after a SIMULATE/STATIC";
+    let element = error.element.as_ref();
+    message(dataset, source, Code::Integration, text, element, help)
+}
+
 /// An integration that stopped.
 pub(crate) fn of_run(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
     let text = format!("the integration stopped {error}");

@@ -303,6 +303,16 @@ impl<'p, W: Write> Journal<'p, W> {
         Ok(())
     }
 
+    /// The table of eigenvalues, cycles/second.
+    pub(crate) fn eigenvalues(
+        &mut self,
+        time: f64,
+        values: &[[f64; 2]],
+    ) -> Result<(), OutputError> {
+        let written = self.writer.eigenvalues(time, values);
+        self.check(written)
+    }
+
     /// The table of friction, and what LUGRE did that one should know.
     pub(crate) fn frictions(&mut self, reports: &[FrictionReport]) -> Result<(), OutputError> {
         let table = friction_table(reports);

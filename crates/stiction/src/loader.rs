@@ -154,7 +154,8 @@ impl Loader {
                     }
                     continue;
                 }
-                CommandKind::Simulate(_) | CommandKind::Change(_) if self.prefix.is_none() => {
+                CommandKind::Stop => {}
+                _ if self.prefix.is_none() => {
                     let message = "this command comes before any model".to_owned();
                     let help = Some("write FILE/MODEL=name before it");
                     self.report(Code::NoModel, "", Some(&naming), message, help);

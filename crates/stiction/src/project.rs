@@ -227,6 +227,13 @@ impl Project {
                         Err(text) => messages.push(self.refuse(text, step)),
                     }
                 }
+                CommandKind::Eigensolution(asked) => {
+                    if let Some((id, _)) = asked.reference
+                        && dataset.markers.by_id(id).is_none()
+                    {
+                        messages.push(self.refuse(format!("there is no MARKER/{id}"), step));
+                    }
+                }
                 CommandKind::Stop => break,
                 CommandKind::Model { .. } | CommandKind::CommandFile { .. } => {}
             }

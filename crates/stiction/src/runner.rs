@@ -10,6 +10,7 @@ use results::{Header, MessageWriter, ReqWriter, ResWriter};
 
 use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row, unit_names};
+use crate::eigensolution::ModeReport;
 use crate::failure;
 use crate::journal::Journal;
 use crate::listing;
@@ -40,6 +41,7 @@ pub(crate) struct Runner<'a> {
     /// Typical length of the assembled model.
     pub(crate) length: f64,
     pub(crate) simulations: usize,
+    pub(crate) modes: Vec<ModeReport>,
     pub(crate) started: Instant,
     pub(crate) last_end: f64,
     pub(crate) log: Journal<'a, File>,
@@ -151,6 +153,7 @@ impl<'a> Runner<'a> {
             instant: Recorded::Nothing,
             length: 1.0,
             simulations: 0,
+            modes: Vec::new(),
             started: Instant::now(),
             last_end: last_end(project),
             log,
@@ -181,6 +184,7 @@ impl<'a> Runner<'a> {
                 CommandKind::Model { .. } => self.log_model().map_err(Halt::from),
                 CommandKind::Change(change) => self.change(change, step),
                 CommandKind::Simulate(simulate) => self.simulate(simulate, step, watch),
+                CommandKind::Eigensolution(asked) => self.eigensolution(asked),
                 // The commands of the file follow.
                 CommandKind::CommandFile { .. } => Ok(()),
                 CommandKind::Stop => break,
@@ -252,10 +256,7 @@ impl<'a> Runner<'a> {
             (K::Static | K::QuasiStatic, Some(_)) => Mode::QuasiStatic,
             _ => Mode::Dynamic,
         };
-        self.take_changes(mode)?;
-        if !self.assembled {
-            self.assemble()?;
-        }
+        self.prepare(mode)?;
         if mode != Mode::Dynamic {
             return self.equilibria(span, watch);
         }
@@ -275,6 +276,15 @@ impl<'a> Runner<'a> {
         }
         let span = span.ok_or_else(|| Halt::refused("SIMULATE needs END or DURATION"))?;
         self.dynamic(span, watch)
+    }
+
+    /// Takes over changes of the model and assembles it where it is not.
+    pub(crate) fn prepare(&mut self, mode: Mode) -> Result<(), Halt> {
+        self.take_changes(mode)?;
+        if self.assembled {
+            return Ok(());
+        }
+        self.assemble()
     }
 
     /// Lowers the dataset again where commands have changed it, or where a function that reads MODE
@@ -442,6 +452,7 @@ impl<'a> Runner<'a> {
             messages: self.log.into_messages(),
             statistics: self.simulation.statistics(),
             frictions,
+            modes: self.modes,
             balance: account.balance().cloned(),
             files,
             elapsed,

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use mechanics::Statistics;
 
 use crate::balance::EnergyBalance;
+use crate::eigensolution::ModeReport;
 use crate::lower::Measures;
 use crate::message::{InputError, Message};
 use crate::project::Project;
@@ -70,6 +71,8 @@ pub struct RunReport {
     pub statistics: Statistics,
     /// What friction did, by FRICTION.
     pub frictions: Vec<FrictionReport>,
+    /// What each LINEAR/EIGENSOL found.
+    pub modes: Vec<ModeReport>,
     /// Energy balance of its dynamic simulations; `None` where there was none.
     pub balance: Option<EnergyBalance>,
     /// The files written.

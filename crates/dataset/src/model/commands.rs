@@ -42,6 +42,8 @@ pub enum CommandKind {
     },
     /// SIMULATE.
     Simulate(Simulate),
+    /// LINEAR/EIGENSOL.
+    Eigensolution(Eigensolution),
     /// A statement that changes the model.
     Change(Box<Change>),
     /// STOP.
@@ -96,6 +98,19 @@ pub struct Simulate {
     pub steps: Option<u32>,
     /// DTOUT: time between outputs, positive. Never together with `steps`.
     pub dtout: Option<f64>,
+}
+
+/// LINEAR/EIGENSOL: the modes of the model linearised at the present instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Eigensolution {
+    /// Whether damping counts: without NODAMPIN.
+    pub damping: bool,
+    /// Whether mode shapes are wanted: without NOVECTOR.
+    pub vectors: bool,
+    /// COORDS: numbers of the first and the last mode whose shape is to be printed in full.
+    pub shapes: Option<(u32, u32)>,
+    /// RM: the marker that small motions are seen from, and its place; ground without it.
+    pub reference: Option<(u32, Span)>,
 }
 
 /// A change of one statement of the model; see [`Dataset::apply`](crate::Dataset::apply).

@@ -25,8 +25,8 @@ mod vector_force;
 
 pub use activity::{Activity, Selection, Switchable};
 pub use commands::{
-    Change, ChangeKind, Command, CommandFile, CommandKind, FrictionArguments, Simulate,
-    SimulationKind,
+    Change, ChangeKind, Command, CommandFile, CommandKind, Eigensolution, FrictionArguments,
+    Simulate, SimulationKind,
 };
 pub use coupler::{CoupledFreedom, Coupler, Gear};
 pub use dataset::Dataset;

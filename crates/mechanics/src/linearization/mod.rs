@@ -123,6 +123,7 @@ impl Simulation {
                           that they are not unique; the model cannot be linearised"
                     .to_owned(),
                 element: None,
+                jammed: false,
             });
         };
         let (n, rate) = (&basis.value, &basis.rate);

@@ -33,6 +33,15 @@ pub struct Mode {
     pub shape: Vec<Complex<f64>>,
 }
 
+impl Mode {
+    /// Which component of the shape is the largest; none without a shape.
+    #[must_use]
+    pub fn largest(&self) -> Option<usize> {
+        let one = Complex::new(1.0, 0.0);
+        self.shape.iter().position(|component| *component == one)
+    }
+}
+
 /// Eigenvalues that could not be found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModesError {
@@ -204,7 +213,14 @@ impl Linearization {
         };
         let largest = (0..shape.len()).max_by(|&a, &b| size(a).total_cmp(&size(b)));
         let unit = largest.map_or(Complex::new(1.0, 0.0), |k| shape[k]);
-        shape.iter().map(|component| component / unit).collect()
+        let scaled = |(k, component): (usize, &Complex<f64>)| {
+            if Some(k) == largest {
+                Complex::new(1.0, 0.0)
+            } else {
+                component / unit
+            }
+        };
+        shape.iter().enumerate().map(scaled).collect()
     }
 }
 

@@ -47,6 +47,8 @@ pub(crate) enum Mode {
     Static,
     /// A sequence of equilibria.
     QuasiStatic,
+    /// Small motions about an instant.
+    Linear,
 }
 
 impl Mode {
@@ -56,6 +58,7 @@ impl Mode {
             Self::Dynamic => 4.0,
             Self::Static => 5.0,
             Self::QuasiStatic => 6.0,
+            Self::Linear => 7.0,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use stiction::{Outcome, Project, RunOptions};
 
-use crate::shared::run;
+use crate::shared::{run, run_with_log};
 
 const SLIDER: &str = "A slider pushed by a variable
 PART/1, GROUND
@@ -128,4 +128,47 @@ fn split_runs_agree_with_one() {
     // Exactly 1.5 m; the tolerance is 1e-8 a step.
     assert!((last("whole", whole) - 1.5).abs() < 1e-7);
     assert!((last("split", split) - 1.5).abs() < 1e-7);
+}
+
+/// A pendulum hangs still: its frequency is in the report, on the terminal and in the message file.
+#[test]
+fn eigensolutions_are_reported_and_logged() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("modes-input");
+    std::fs::create_dir_all(&folder).unwrap();
+    let model = "A pendulum of a metre, in millimetres and milliseconds
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=MILLIMETER, TIME=MILLISECOND
+ACCGRAV/JGRAV=-9.80665E-3
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1E-9, 1E-9, 1E-9
+MARKER/20, PART=2, QP=0, -1000, 0
+MARKER/21, PART=2
+JOINT/1, REVOLUTE, I=21, J=1
+END
+";
+    std::fs::write(folder.join("pendulum.adm"), model).unwrap();
+    let commands = "\nFILE/MODEL=pendulum\nSIMULATE/STATIC\nLINEAR/EIGENSOL, COORDS=1\n\
+                    ACCGRAV/JGRAV=-39.2266E-3\nLIN/EIG, NOVECTOR, RM=1\n";
+    let file = folder.join("modes.acf");
+    std::fs::write(&file, commands).unwrap();
+    let project = Project::load(&file).unwrap();
+    let (report, _, log) = run_with_log(&project, RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed);
+    let frequency = 9.80665_f64.sqrt() / std::f64::consts::TAU;
+    for (modes, expected) in report.modes.iter().zip([frequency, 2.0 * frequency]) {
+        assert_eq!(modes.modes.len(), 1);
+        let mode = &modes.modes[0];
+        assert!((mode.value[1] / expected - 1.0).abs() < 1e-9, "{mode:?}");
+        assert_eq!((mode.value[0], mode.damping_ratio()), (0.0, 0.0));
+    }
+    let moves = report.modes[0].modes[0].moves.as_deref().unwrap();
+    assert!(moves.starts_with("PART/2 "), "{moves}");
+    assert_eq!(report.modes[1].modes[0].moves, None);
+    let log = report
+        .files
+        .iter()
+        .find(|f| f.extension().unwrap() == "msg");
+    let log = std::fs::read_to_string(log.unwrap()).unwrap();
+    assert!(log.contains("E I G E N V A L U E S  at time = 0.00000E+00"));
+    assert!(log.contains("shape of mode 1"), "{log}");
 }

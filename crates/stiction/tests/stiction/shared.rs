@@ -27,12 +27,20 @@ pub(crate) fn scratch_folder() -> PathBuf {
 
 /// Runs a project into a throw-away folder; returns the report and the results.
 pub(crate) fn run(project: &Project, options: RunOptions) -> (RunReport, ResFile) {
+    let (report, results, _) = run_with_log(project, options);
+    (report, results)
+}
+
+/// The same with the text of the message file.
+pub(crate) fn run_with_log(project: &Project, options: RunOptions) -> (RunReport, ResFile, String) {
     let folder = scratch_folder();
     let session = Session::new(project).unwrap_or_else(|error| panic!("{error}"));
     let report = session.run(&folder, options, &mut GoOn).unwrap();
-    let results = ResFile::read(folder.join(format!("{}.res", project.prefix()))).unwrap();
+    let file = |extension| folder.join(format!("{}.{extension}", project.prefix()));
+    let results = ResFile::read(file("res")).unwrap();
+    let log = std::fs::read_to_string(file("msg")).unwrap();
     std::fs::remove_dir_all(folder).unwrap();
-    (report, results)
+    (report, results, log)
 }
 
 /// Runs a project, which must go through.

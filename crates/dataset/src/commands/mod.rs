@@ -1,5 +1,7 @@
 //! From text to a [`CommandFile`].
 
+mod linear;
+
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::grammar::{Form, Grammar};
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
@@ -210,6 +212,7 @@ const SOLVERS: &str = "stiction has one way to solve initial conditions and kine
 const COMMANDS: &[Rule] = &[
     read("FILE", "FILE", false, FILE_KEYWORDS, file),
     read("SIMULATE", "SIM", false, SIMULATE_KEYWORDS, simulate),
+    read("LINEAR", "LIN", false, linear::KEYWORDS, linear::linear),
     read("STOP", "STOP", false, &[], |_| Some(CommandKind::Stop)),
     read(
         "VARIABLE",
@@ -310,7 +313,6 @@ const COMMANDS: &[Rule] = &[
     ignored("SHOW", ASKS),
     ignored("TIME", ASKS),
     unsupported("CONTROL"),
-    unsupported("LINEAR"),
     unsupported("RELOAD"),
     unsupported("SAVE"),
 ];
