@@ -164,11 +164,6 @@ END
     let moves = report.modes[0].modes[0].moves.as_deref().unwrap();
     assert!(moves.starts_with("PART/2 "), "{moves}");
     assert_eq!(report.modes[1].modes[0].moves, None);
-    let log = report
-        .files
-        .iter()
-        .find(|f| f.extension().unwrap() == "msg");
-    let log = std::fs::read_to_string(log.unwrap()).unwrap();
     assert!(log.contains("E I G E N V A L U E S  at time = 0.00000E+00"));
     assert!(log.contains("shape of mode 1"), "{log}");
 }
