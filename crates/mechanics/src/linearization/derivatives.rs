@@ -8,11 +8,19 @@ use crate::rotation::skew;
 use crate::state::{State, VELOCITIES};
 use crate::system::{Rows, System, Weights};
 
-/// Matrices over the motions of all bodies, six a body along ground axes; see [`super`].
+/// Matrices over the motions of all bodies, six a body along ground axes, and then the differential
+/// states; see [`super`]. Algebraic variables are eliminated.
 pub(super) struct Derivatives {
+    /// By accelerations of the motions.
     pub(super) mass: DMatrix<f64>,
-    pub(super) damping: DMatrix<f64>,
-    pub(super) stiffness: DMatrix<f64>,
+    /// By velocities of the motions.
+    pub(super) velocity: DMatrix<f64>,
+    /// By displacements.
+    pub(super) position: DMatrix<f64>,
+    /// By differential states.
+    pub(super) state: DMatrix<f64>,
+    /// By their rates.
+    pub(super) state_rate: DMatrix<f64>,
     /// `B`, by equation in force.
     pub(super) by_multiplier: DMatrix<f64>,
 }
@@ -25,49 +33,90 @@ pub(super) struct Bristles<'a> {
     pub(super) short: f64,
 }
 
+const NONE: Weights = Weights {
+    mass: 0.0,
+    velocity: 0.0,
+    position: 0.0,
+    state: 0.0,
+    rate: 0.0,
+};
+/// What the equations are differentiated by.
+const BY_MASS: Weights = Weights {
+    mass: 1.0,
+    rate: 1.0,
+    ..NONE
+};
+const BY_VELOCITY: Weights = Weights {
+    velocity: 1.0,
+    ..NONE
+};
+const BY_POSITION_AND_VELOCITY: Weights = Weights {
+    velocity: 1.0,
+    position: 1.0,
+    ..NONE
+};
+const BY_STATE: Weights = Weights { state: 1.0, ..NONE };
+
 impl System {
-    /// The derivatives at an instant that has been solved.
+    /// The derivatives at an instant that has been solved, with the `rates` of velocities and states
+    /// found there. `None` where algebraic variables are not determined.
     pub(super) fn derivatives(
         &mut self,
         state: &State,
-        accelerations: &[f64],
+        rates: &[f64],
         multipliers: &[f64],
         bristles: &Bristles<'_>,
-    ) -> Derivatives {
-        let n = self.velocity_count();
+    ) -> Option<Derivatives> {
+        let (n, moving) = (self.rate_count(), self.velocity_count());
         let zero = vec![0.0; n];
         self.set_bristles(bristles.deflections, 0.0);
         self.evaluate(state, true);
-        let at = |mass: f64, velocity: f64, position: f64| Weights {
-            mass,
-            velocity,
-            position,
+        self.set_solution(rates, 1.0, multipliers);
+        let by_rate = self.dense(BY_MASS, &zero, multipliers);
+        let damping = self.dense(BY_VELOCITY, &zero, multipliers);
+        let both = self.dense(BY_POSITION_AND_VELOCITY, rates, multipliers);
+        let by_state = self.dense(BY_STATE, &zero, multipliers);
+        // What a variable follows, in terms of everything else.
+        let first = n + self.row_count();
+        let variables = by_rate.nrows() - first;
+        let own = by_rate.view((first, first), (variables, variables));
+        let follow = if variables > 0 {
+            let inverse = own.into_owned().try_inverse()?;
+            by_rate.view((0, first), (n, variables)) * inverse
+        } else {
+            DMatrix::zeros(n, 0)
         };
-        let mass = self.dense(at(1.0, 0.0, 0.0), &zero, multipliers);
-        let damping = self.dense(at(0.0, 1.0, 0.0), &zero, multipliers);
-        let both = self.dense(at(0.0, 1.0, 1.0), accelerations, multipliers);
-        let square = |matrix: &DMatrix<f64>| matrix.view((0, 0), (n, n)).into_owned();
-        let by_multiplier = -mass.view((0, n), (n, self.row_count())).into_owned();
-        let mut stiffness = square(&both) - square(&damping);
+        let rest = |matrix: &DMatrix<f64>, column: usize, count: usize| {
+            let direct = matrix.view((0, column), (n, count)).into_owned();
+            direct - &follow * matrix.view((first, column), (variables, count))
+        };
+        let motions = |matrix: &DMatrix<f64>| rest(matrix, 0, moving);
+        let velocity = motions(&damping);
+        let mut position = motions(&both) - &velocity;
         if self.bristle_count() > 0 {
             // A deflection that follows the displacement of the surfaces for a short time: what it
             // adds to the damper, over that time, is its spring.
             self.set_bristles(bristles.deflections, bristles.short);
-            let held = self.dense(at(0.0, 1.0, 0.0), &zero, multipliers);
-            stiffness += (square(&held) - square(&damping)) / bristles.short;
+            let held = self.dense(BY_VELOCITY, &zero, multipliers);
+            position += (motions(&held) - &velocity) / bristles.short;
             self.set_bristles(bristles.deflections, 0.0);
         }
-        self.add_function_stiffness(multipliers, &mut stiffness);
-        Derivatives {
-            mass: square(&mass),
-            damping: square(&damping),
-            stiffness,
-            by_multiplier,
-        }
+        self.add_function_stiffness(multipliers, &mut position);
+        let states = n - moving;
+        Some(Derivatives {
+            mass: motions(&by_rate),
+            velocity,
+            position,
+            state: rest(&by_state, moving, states),
+            state_rate: rest(&by_rate, moving, states),
+            by_multiplier: -by_rate
+                .view((0, n), (moving, self.row_count()))
+                .into_owned(),
+        })
     }
 
     fn dense(&mut self, weights: Weights, w: &[f64], multipliers: &[f64]) -> DMatrix<f64> {
-        let size = self.velocity_count() + self.row_count();
+        let size = self.unknown_count();
         let mut matrix = Matrix::new(size);
         self.assemble(Rows::Position, weights, w, multipliers, &mut matrix);
         DMatrix::from_row_slice(size, size, &matrix.to_dense())

@@ -27,7 +27,8 @@
 //! LᵀM N z̈ + Lᵀ(M (Ṅ+V) + D N) ż + Lᵀ(M V̇ + K N + D V) z = 0
 //! ```
 //!
-//! `L` is `N` where no friction depends on a reaction. Velocity and acceleration constraints hold
+//! Differential states `y` of system elements stand beside `z` with equations of first order, and
+//! algebraic variables are eliminated. `L` is `N` where no friction depends on a reaction. Velocity and acceleration constraints hold
 //! displacements, too: what they prescribe is a function of time.
 //!
 //! Friction that sticks is the spring and damper that its law is there, with the anchor held. LuGre
@@ -43,7 +44,7 @@ pub use modes::{Mode, ModesError};
 
 use crate::simulation::{RunError, Simulation};
 use coordinates::Coordinates;
-use derivatives::{Bristles, Derivatives, turned};
+use derivatives::{Bristles, turned};
 
 /// Forces that leave this part of those of the model unbalanced are in balance.
 const BALANCED: f64 = 1e-6;
@@ -59,7 +60,8 @@ pub struct Coordinate {
     pub component: usize,
 }
 
-/// A model linearised at an instant: `mass z̈ + damping ż + stiffness z = 0`.
+/// A model linearised at an instant: `mass p̈ + damping ṗ + stiffness p = 0` with `p` the independent
+/// coordinates `z` and then the differential states, which have no mass.
 #[derive(Clone, Debug)]
 pub struct Linearization {
     /// Time of the instant.
@@ -91,7 +93,9 @@ impl Simulation {
     /// depend on one another at this instant.
     pub fn linearize(&mut self, reference: Option<usize>) -> Result<Linearization, RunError> {
         let solved = self.solve_instant();
-        if !self.rests_in_balance() {
+        if solved.is_err() && self.rests_in_balance() {
+            self.accelerations.fill(0.0);
+        } else {
             solved?;
         }
         let length = self.scales.length;
@@ -100,23 +104,19 @@ impl Simulation {
             deflections: &self.state.values[range],
             short: SHORT / self.scales.rate,
         };
-        let (state, accelerations) = (&self.state, &self.accelerations);
-        let Derivatives {
-            mass,
-            damping,
-            stiffness,
-            by_multiplier,
-        } = self
+        let (state, rates) = (&self.state, &self.accelerations);
+        let accelerations = &rates[..self.system.velocity_count()];
+        let parts = self
             .system
-            .derivatives(state, accelerations, &self.multipliers, &bristles);
+            .derivatives(state, rates, &self.multipliers, &bristles);
         let chosen = Coordinates::choose(&self.system, reference, length);
-        let motion = chosen.and_then(|coordinates| {
-            let basis = coordinates.basis(&mut self.system, state, accelerations, length);
-            let left = coordinates.left(&self.system, &by_multiplier);
-            Some((coordinates.names(), basis?, left?))
+        let found = chosen.zip(parts).and_then(|(coordinates, parts)| {
+            let basis = coordinates.basis(&mut self.system, state, accelerations, length)?;
+            let left = coordinates.left(&self.system, &parts.by_multiplier)?;
+            Some((coordinates.names(), parts, basis, left))
         });
         // The equation that the elimination could not use is not known by name.
-        let Some((coordinates, basis, left)) = motion else {
+        let Some((coordinates, parts, basis, left)) = found else {
             return Err(RunError {
                 time: self.state.time,
                 message: "constraints depend on one another here, or friction on the reactions so \
@@ -130,13 +130,17 @@ impl Simulation {
         let velocity = rate - turned(state.velocities(), n);
         let velocity_rate =
             &basis.second_rate - turned(accelerations, n) - turned(state.velocities(), rate);
-        let reduce = |matrix: DMatrix<f64>| left.tr_mul(&matrix);
+        let reduce = |motions: DMatrix<f64>, states: &DMatrix<f64>| join(&left, motions, states);
+        let none = DMatrix::zeros(parts.state.nrows(), parts.state.ncols());
+        let damping = &parts.mass * (rate + &velocity) + &parts.velocity * n;
+        let stiffness =
+            &parts.mass * velocity_rate + &parts.position * n + &parts.velocity * &velocity;
         Ok(Linearization {
             time: state.time,
             coordinates,
-            mass: reduce(&mass * n),
-            damping: reduce(&mass * (rate + &velocity) + &damping * n),
-            stiffness: reduce(&mass * velocity_rate + stiffness * n + &damping * &velocity),
+            mass: reduce(&parts.mass * n, &none),
+            damping: reduce(damping, &parts.state_rate),
+            stiffness: reduce(stiffness, &parts.state),
             motions: basis.value,
             length,
         })
@@ -147,8 +151,10 @@ impl Simulation {
         if self.state.velocities().iter().any(|u| *u != 0.0) {
             return false;
         }
-        let mut forces = vec![0.0; self.system.velocity_count()];
+        let mut forces = vec![0.0; self.system.rate_count()];
+        self.system.set_statics(false);
         self.system.evaluate(&self.state, false);
+        self.system.set_solution(&forces, 1.0, &self.multipliers);
         self.system.forces(&self.multipliers, &mut forces);
         // Without any load, what would move the model by its length in a unit of time.
         let mass: f64 = self.model().bodies.iter().map(|body| body.mass).sum();
@@ -157,4 +163,21 @@ impl Simulation {
         let least = BALANCED * typical.max(unloaded);
         forces.iter().all(|force| force.abs() <= least)
     }
+}
+
+/// The equations of the motions, multiplied with `left`, over the coordinates and the states, with
+/// those of the states below.
+fn join(left: &DMatrix<f64>, motions: DMatrix<f64>, states: &DMatrix<f64>) -> DMatrix<f64> {
+    let (moving, n, s) = (left.nrows(), left.ncols(), states.ncols());
+    let mut joined = DMatrix::zeros(n + s, n + s);
+    for (first, columns) in [(0, &motions), (n, states)] {
+        let above = left.tr_mul(&columns.rows(0, moving));
+        joined
+            .view_mut((0, first), (n, columns.ncols()))
+            .copy_from(&above);
+        joined
+            .view_mut((n, first), (s, columns.ncols()))
+            .copy_from(&columns.rows(moving, s));
+    }
+    joined
 }

@@ -1,7 +1,7 @@
 //! Eigenvalues and mode shapes of a linearised model.
 //!
-//! The eigenvalues of `λ² M + λ D + K` are those of a matrix of twice the size, or where there is no
-//! damping the roots of those of `−M⁻¹K`. Parts without mass make `M` singular and some eigenvalues
+//! The eigenvalues of `λ² M + λ D + K` are those of a matrix of first order, or where there is no
+//! damping and no state the roots of those of `−M⁻¹K`. Parts without mass make `M` singular and some eigenvalues
 //! infinite; the others are then found by their distance from a shift,
 //! `(A − σE)⁻¹E x = x/(λ − σ)` for `E ẋ = A x` (Golub and Van Loan, *Matrix Computations*, section
 //! 7.7).
@@ -12,7 +12,7 @@ use nalgebra::{Complex, DMatrix, DVector, Schur};
 use super::Linearization;
 use crate::state::VELOCITIES;
 
-/// A mass matrix whose smallest pivot is this part of its largest is singular.
+/// A mass, or a pivot of the mass matrix, that is this part of the largest is none.
 const MASSLESS: f64 = 1e-13;
 /// Eigenvalues beyond this multiple of the typical rate of a model with parts without mass are
 /// infinite. They come in defective pairs, which rounding moves by the root of its size.
@@ -66,7 +66,10 @@ impl Linearization {
     /// Without dampers: of the damping matrix the gyroscopic (skew-symmetric) part stays.
     #[must_use]
     pub fn without_damping(mut self) -> Self {
-        self.damping = 0.5 * (&self.damping - self.damping.transpose());
+        let n = self.coordinates.len();
+        let mut motions = self.damping.view_mut((0, 0), (n, n));
+        let skew = 0.5 * (&motions - motions.transpose());
+        motions.copy_from(&skew);
         self
     }
 
@@ -108,10 +111,12 @@ impl Linearization {
 
     /// A typical rate: root of the ratio of stiffness and mass, or ratio of damping and mass.
     fn rate(&self) -> f64 {
-        let mass = self.mass.norm();
-        let rate = (self.stiffness.norm() / mass)
+        let n = self.coordinates.len();
+        let norm = |matrix: &DMatrix<f64>| matrix.view((0, 0), (n, n)).norm();
+        let mass = norm(&self.mass);
+        let rate = (norm(&self.stiffness) / mass)
             .sqrt()
-            .max(self.damping.norm() / mass);
+            .max(norm(&self.damping) / mass);
         if rate > 0.0 && rate.is_finite() {
             rate
         } else {
@@ -119,51 +124,69 @@ impl Linearization {
         }
     }
 
+    /// What multiplies the coordinates so that masses on the diagonal are one; of a coordinate without
+    /// mass, rotations in units of the length.
+    fn units(&self) -> Vec<f64> {
+        let natural = |k: usize| match self.coordinates.get(k) {
+            Some(coordinate) if coordinate.component >= 3 => 1.0 / self.length,
+            _ => 1.0,
+        };
+        let mass = |k: usize| natural(k) * natural(k) * self.mass[(k, k)];
+        let all = 0..self.mass.nrows();
+        let largest = all.clone().map(mass).fold(0.0, f64::max);
+        all.map(|k| {
+            if mass(k) > MASSLESS * largest {
+                1.0 / self.mass[(k, k)].sqrt()
+            } else {
+                natural(k)
+            }
+        })
+        .collect()
+    }
+
     fn eigenvalues(&self) -> Result<Vec<Complex<f64>>, ModesError> {
-        let n = self.coordinates.len();
-        if n == 0 {
+        let (n, all) = (self.coordinates.len(), self.mass.nrows());
+        if all == 0 {
             return Ok(Vec::new());
         }
-        // Rotations in units of the length make the pivots of the mass comparable.
-        let unit = |k: usize| {
-            let turns = self.coordinates[k].component >= 3;
-            if turns { 1.0 / self.length } else { 1.0 }
-        };
+        let units = self.units();
+        let unit = |k: usize| units[k];
         let scaled = |matrix: &DMatrix<f64>| {
-            DMatrix::from_fn(n, n, |r, c| unit(r) * matrix[(r, c)] * unit(c))
+            DMatrix::from_fn(all, all, |r, c| unit(r) * matrix[(r, c)] * unit(c))
         };
         let (mass, damping) = (scaled(&self.mass), scaled(&self.damping));
         let stiffness = scaled(&self.stiffness);
-        let factors = mass.clone().full_piv_lu();
+        // E ẋ = A x with x = (p, ż): states are of first order.
+        let states = all - n;
+        let size = all + n;
+        let mut right = DMatrix::zeros(size, size);
+        right.view_mut((0, 0), (n, n)).fill_with_identity();
+        let by_state = damping.view((0, n), (all, states));
+        right.view_mut((n, n), (all, states)).copy_from(&by_state);
+        let by_velocity = mass.view((0, 0), (all, n));
+        right.view_mut((n, all), (all, n)).copy_from(&by_velocity);
+        let mut left = DMatrix::zeros(size, size);
+        left.view_mut((0, all), (n, n)).fill_with_identity();
+        left.view_mut((n, 0), (all, all)).copy_from(&-&stiffness);
+        let by_velocity = -damping.view((0, 0), (all, n));
+        left.view_mut((n, all), (all, n)).copy_from(&by_velocity);
+        let rate = self.rate();
+        let factors = right.clone().full_piv_lu();
         let pivots = factors.u().diagonal().abs();
         let regular = pivots.min() > MASSLESS * pivots.max();
-        let inverse = |matrix: &DMatrix<f64>| factors.solve(matrix);
-        if let (true, Some(stiffness), Some(damping)) =
-            (regular, inverse(&-&stiffness), inverse(&-&damping))
-        {
-            if damping.iter().all(|entry| *entry == 0.0) {
-                return Ok(roots(&of_matrix(stiffness)?, n));
-            }
-            let mut matrix = DMatrix::zeros(2 * n, 2 * n);
-            matrix.view_mut((0, n), (n, n)).fill_with_identity();
-            matrix.view_mut((n, 0), (n, n)).copy_from(&stiffness);
-            matrix.view_mut((n, n), (n, n)).copy_from(&damping);
+        if regular && damping.iter().all(|entry| *entry == 0.0) {
+            let squares = mass.lu().solve(&-stiffness);
+            return Ok(roots(
+                &of_matrix(squares.ok_or(ModesError::Indefinite)?)?,
+                n,
+            ));
+        }
+        if let (true, Some(matrix)) = (regular, factors.solve(&left)) {
             return of_matrix(matrix);
         }
-        let rate = self.rate();
         let shift = 0.7 * rate;
-        let mut right = DMatrix::zeros(2 * n, 2 * n);
-        right.view_mut((0, 0), (n, n)).fill_with_identity();
-        right.view_mut((n, n), (n, n)).copy_from(&mass);
-        let mut left = -shift * &right;
-        let mut ones = left.view_mut((0, n), (n, n));
-        ones.fill_with_identity();
-        let mut below = left.view_mut((n, 0), (n, n));
-        below -= stiffness;
-        let mut last = left.view_mut((n, n), (n, n));
-        last -= damping;
-        let matrix = left.lu().solve(&right).ok_or(ModesError::Indefinite)?;
-        let distances = of_matrix(matrix)?;
+        let matrix = (left - shift * &right).lu().solve(&right);
+        let distances = of_matrix(matrix.ok_or(ModesError::Indefinite)?)?;
         let values = distances
             .into_iter()
             .filter(|distance| distance.norm() * INFINITE * rate > 1.0)
@@ -178,7 +201,7 @@ impl Linearization {
         others: &[DVector<Complex<f64>>],
         seed: usize,
     ) -> Result<DVector<Complex<f64>>, ModesError> {
-        let n = self.coordinates.len();
+        let n = self.mass.nrows();
         let near = value + Complex::new(NEAR, NEAR) * (value.norm() + 1e-3 * self.rate());
         let complex = |matrix: &DMatrix<f64>| matrix.map(|entry| Complex::new(entry, 0.0));
         let pencil = complex(&self.mass) * (near * near)
@@ -206,7 +229,7 @@ impl Linearization {
     /// The motion of all bodies by the coordinates of a mode.
     fn shape(&self, vector: &DVector<Complex<f64>>) -> Vec<Complex<f64>> {
         let motions = self.motions.map(|entry| Complex::new(entry, 0.0));
-        let shape = motions * vector;
+        let shape = motions * vector.rows(0, self.coordinates.len());
         let size = |k: usize| {
             let turns = k % VELOCITIES >= 3;
             shape[k].norm() * if turns { self.length } else { 1.0 }

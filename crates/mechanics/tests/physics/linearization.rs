@@ -4,7 +4,8 @@ use mechanics::expression::{Binary, Input, Operation, Program};
 use mechanics::linearization::Mode;
 use mechanics::measure::Quantity;
 use mechanics::model::{
-    ForceKind, FrictionJoint, GeneralConstraint, JointKind, Label, Level, MotionFreedom,
+    AlgebraicVariable, Definition, DifferentialState, ForceKind, Form, FrictionJoint,
+    GeneralConstraint, JointKind, Label, Level, MotionFreedom,
 };
 use mechanics::{EquilibriumSettings, Simulation};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -401,4 +402,57 @@ fn a_stuck_block_rings_on_its_bristles() {
     let rate = (s0 / mass - half * half).sqrt();
     // The spring is a difference over 1e-6 of a damper: 1e-16 · (s1 + s2)/1e-6 of s0.
     assert_values(&modes(b), &[Complex::new(-half, rate)], 1e-9);
+}
+
+/// A spring whose force follows the displacement through a filter of first order, `T ẏ = x − y`:
+/// `(m s² + c s)(T s + 1) + k = 0`; with the filter as an algebraic variable in between.
+#[test]
+fn a_filter_adds_its_eigenvalue() {
+    let (mass, stiffness, time) = (2.0, 50.0, 0.3);
+    let mut b = Builder::new(Vector3::zeros());
+    let (_, i, j) = slider(&mut b, mass, 0.0);
+    let place = b.measure(Quantity::Displacement(2), i, j);
+    let label = |statement| Label {
+        statement,
+        id: 1,
+        name: String::new(),
+    };
+    // w = x − y, T ẏ = w
+    let mut lag = Program::default();
+    let x = lag.push(Operation::Input(Input::Measure(place)));
+    let y = lag.push(Operation::Input(Input::State(0)));
+    lag.push(Operation::Binary(Binary::Subtract, x, y));
+    b.model.algebraics.push(AlgebraicVariable {
+        label: label("VARIABLE"),
+        definition: Definition::Function(Form::Explicit, lag),
+        start: 0.0,
+    });
+    let mut rate = Program::default();
+    let w = rate.push(Operation::Input(Input::Algebraic(0)));
+    let constant = rate.push(Operation::Constant(time));
+    rate.push(Operation::Binary(Binary::Divide, w, constant));
+    b.model.states.push(DifferentialState {
+        label: label("DIFF"),
+        form: Form::Explicit,
+        function: rate,
+        start: 0.0,
+        start_rate: 0.0,
+        held_in_statics: false,
+    });
+    let mut force = Program::default();
+    let y = force.push(Operation::Input(Input::State(0)));
+    let factor = force.push(Operation::Constant(-stiffness));
+    force.push(Operation::Binary(Binary::Multiply, factor, y));
+    b.force(ForceKind::AlongAxis { frame: j, axis: 2 }, i, j, force);
+    let modes = modes(b);
+    assert_eq!(modes.len(), 2);
+    for mode in &modes {
+        let s = mode.value;
+        let terms = [
+            mass * s * s * (s * time + 1.0),
+            Complex::new(stiffness, 0.0),
+        ];
+        assert!((terms[0] + terms[1]).norm() < 1e-10 * stiffness, "{s}");
+    }
+    assert!(modes[0].value.im == 0.0 && modes[1].value.im > 0.0);
 }
