@@ -164,7 +164,7 @@ fn friction_json(report: &FrictionReport) -> Value {
         "sticks": tally.sticks,
         "stuck_time": { "value": tally.stuck_time, "unit": report.time_unit },
         "largest_creep": { "value": tally.largest_creep, "unit": report.length_unit },
-        "drift": report.lugre.then_some(tally.drift),
+        "drift": report.is_lugre().then_some(tally.drift),
         "not_passive_from": tally.not_passive,
     })
 }

@@ -17,6 +17,7 @@
 //! | a run-time function | its row in `expression/function.rs` |
 //! | a command | its row in `commands/mod.rs` |
 //! | a rule of the whole model | `checks` |
+//! | a suspicion about a model that keeps the rules | `lints` |
 //! | a malformed file and its message | `tests/cases` |
 
 mod activity;
@@ -30,6 +31,7 @@ mod expression;
 mod format;
 mod grammar;
 mod keywords;
+mod lints;
 mod model;
 mod names;
 mod parts;
@@ -47,6 +49,6 @@ pub use expression::{
 };
 pub use format::format;
 pub use model::*;
-pub use reader::read_dataset;
+pub use reader::{lint_dataset, read_dataset};
 pub use source::{LONGEST_SOURCE, Source, Span};
 pub use syntax::{Language, StatementTokens, SyntaxTree, Token, TokenKind};

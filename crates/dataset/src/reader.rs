@@ -2,6 +2,7 @@
 
 use crate::checks;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::lints;
 use crate::model::Dataset;
 use crate::names::{self, Match, Name};
 use crate::reading::{Head, Reading};
@@ -34,6 +35,32 @@ use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, item
 /// ```
 #[must_use]
 pub fn read_dataset(source: &Source) -> (Dataset, Vec<Diagnostic>) {
+    read(source, |_, _| {})
+}
+
+/// [`read_dataset`] with warnings and remarks on what is allowed and seldom meant.
+///
+/// ```
+/// use dataset::{lint_dataset, Code, Source};
+/// let text = "A model in metres
+/// UNITS/SYSTEM=MKS
+/// PART/1, GROUND
+/// ACCGRAV/KGRAV=-9806.65
+/// ";
+/// let source = Source::from_text("m.adm", text.to_string());
+/// let (_, diagnostics) = lint_dataset(&source);
+/// assert_eq!(diagnostics[0].code, Code::GravityUnit);
+/// ```
+#[must_use]
+pub fn lint_dataset(source: &Source) -> (Dataset, Vec<Diagnostic>) {
+    read(source, lints::model)
+}
+
+/// Reads a dataset and looks through it after its rules are checked.
+fn read(
+    source: &Source,
+    look_through: fn(&Builder, &mut Diagnostics),
+) -> (Dataset, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::new(source);
     let tree = SyntaxTree::new(source, Language::Dataset);
     let mut builder = Builder::default();
@@ -54,6 +81,7 @@ pub fn read_dataset(source: &Source) -> (Dataset, Vec<Diagnostic>) {
         read_statement(&tree, statement, &buffer, &mut builder, &mut diagnostics);
     }
     checks::model(&builder, &mut diagnostics);
+    look_through(&builder, &mut diagnostics);
     (builder.dataset, diagnostics.finish())
 }
 
@@ -104,7 +132,8 @@ fn read_statement(
         Action::Read(keywords, read) => (keywords, read),
         Action::Ignored(reason) => {
             let message = format!("{name} has no effect: {reason}");
-            diagnostics.warning(Code::Ignored, raw.head, message);
+            diagnostics.note(Code::Ignored, raw.head, message);
+            builder.mention(diagnostics.source, &items[raw.rest..]);
             return;
         }
         Action::Unsupported => {
@@ -130,6 +159,9 @@ fn read_statement(
     };
     let mut reading = Reading::new(head, &items[raw.rest..], keywords, diagnostics);
     read(&mut reading, builder);
+    for argument in reading.unread() {
+        builder.mention(reading.diagnostics.source, argument);
+    }
 }
 
 /// The name in the last `adams_view_name='...'` comment before a statement.

@@ -92,6 +92,12 @@ impl<'a, 's> Reading<'a, 's> {
         self.argument(keyword).is_some()
     }
 
+    /// The items of the arguments that are not read.
+    pub(crate) fn unread(&self) -> impl Iterator<Item = &'a [Item]> {
+        let unread = self.arguments.iter().filter(|a| a.value.is_none());
+        unread.map(|argument| &self.items[argument.items.clone()])
+    }
+
     /// Whether there is no argument at all.
     pub(crate) fn is_empty(&self) -> bool {
         self.items.is_empty()

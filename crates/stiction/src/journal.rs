@@ -320,8 +320,8 @@ impl<'p, W: Write> Journal<'p, W> {
             self.note(&format!("\nFriction:\n{table}"))?;
         }
         for report in reports {
-            for (code, text) in report.remarks() {
-                self.report(Severity::Note, code, Some(&report.friction), text)?;
+            for (severity, code, text) in report.remarks() {
+                self.report(severity, code, Some(&report.friction), text)?;
             }
         }
         Ok(())

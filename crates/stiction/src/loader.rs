@@ -100,7 +100,7 @@ impl Loader {
             return;
         };
         let source = &self.sources[place];
-        let (dataset, diagnostics) = dataset::read_dataset(source);
+        let (dataset, diagnostics) = dataset::lint_dataset(source);
         self.messages
             .extend(diagnostics.into_iter().map(|d| Message::new(d, source)));
         self.dataset = Some((dataset, place));

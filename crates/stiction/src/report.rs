@@ -1,6 +1,7 @@
 //! The table of friction that a run ends with.
 
-use dataset::Code;
+use dataset::{Code, Severity};
+use friction::Effect;
 use mechanics::model::{Label, Law};
 use mechanics::{Snapshot, Tally};
 use results::UnitNames;
@@ -12,6 +13,9 @@ use crate::wrenches::Wrenches;
 /// A drift above this part of the largest bristle deflection is told: below it is what the steps of
 /// the integrator leave open.
 const DRIFT: f64 = 1e-6;
+
+/// Surfaces that have moved so many times the largest creep have not just crept.
+const FAR: f64 = 10.0;
 
 /// What the friction of one joint did during a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,19 +47,32 @@ pub struct FrictionReport {
     pub energy: f64,
     /// What happened step by step: stick intervals, largest creep, drift.
     pub tally: Tally,
-    /// Whether it is LUGRE, which drifts.
-    pub lugre: bool,
+    /// Its law.
+    pub law: Law,
+    /// Highest speed of the sliding surfaces at an output, length/time.
+    pub fastest: f64,
+    /// How far the surfaces have moved over each other, by their speeds at outputs.
+    pub path: f64,
+    /// Time and speed of the surfaces at the last output.
+    last: (f64, f64),
 }
 
 impl FrictionReport {
-    /// What LUGRE did that a user of it should know: a drift and a damping that may give energy
-    /// back. Nothing of ORIGINAL.
+    /// Whether it is LUGRE, which drifts.
     #[must_use]
-    pub fn remarks(&self) -> Vec<(Code, String)> {
+    pub fn is_lugre(&self) -> bool {
+        matches!(self.law, Law::LuGre(_))
+    }
+
+    /// What a user of the law should know of this run: LUGRE drifts, and its damping may give energy
+    /// back; ORIGINAL may have moved at creeping speed only.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<(Severity, Code, String)> {
         let tally = &self.tally;
         let mut remarks = Vec::new();
+        remarks.extend(self.never_slides());
         let drift = tally.drift.iter().fold(0.0, |sum: f64, d| sum.hypot(*d));
-        if self.lugre && drift > DRIFT * tally.largest_creep {
+        if self.is_lugre() && drift > DRIFT * tally.largest_creep {
             let text = format!(
                 "{}: LUGRE has drifted by {drift:.3e} {} while the joint stuck, {:.3e} times the \
                  largest deflection of its bristles; ORIGINAL holds without drift",
@@ -63,7 +80,7 @@ impl FrictionReport {
                 self.length_unit,
                 drift / tally.largest_creep
             );
-            remarks.push((Code::BristleDrift, text));
+            remarks.push((Severity::Note, Code::BristleDrift, text));
         }
         if let Some(time) = tally.not_passive {
             let text = format!(
@@ -72,9 +89,30 @@ impl FrictionReport {
                  the motion; a smaller DAMPING_COEFFICIENT avoids it",
                 self.friction, self.time_unit
             );
-            remarks.push((Code::BristlesNotPassive, text));
+            remarks.push((Severity::Note, Code::BristlesNotPassive, text));
         }
         remarks
+    }
+
+    /// Surfaces that went far and were slower than the transition velocity at every step.
+    fn never_slides(&self) -> Option<(Severity, Code, String)> {
+        let Law::Original(law) = self.law else {
+            return None;
+        };
+        let tally = &self.tally;
+        let stuck = tally.sticking && tally.stick_end.is_none() && tally.sticks == 1;
+        let far = self.path > FAR * law.max_deformation;
+        if !stuck || !far || law.effect == Effect::Sliding {
+            return None;
+        }
+        let (length, time) = (&self.length_unit, &self.time_unit);
+        let text = format!(
+            "{} never slides: its surfaces have moved {:.3e} {length} at up to {:.3e} {length}/{time}, \
+             always below STICTION_TRANSITION_VELOCITY = {:e}, so that MU_DYNAMIC had no part in it; \
+             give a transition velocity well below the speeds of the joint",
+            self.friction, self.path, self.fastest, law.transition_velocity
+        );
+        Some((Severity::Warning, Code::NeverSlides, text))
     }
 }
 
@@ -99,7 +137,10 @@ pub(crate) fn reports(snapshot: &Snapshot<'_>, units: &UnitNames) -> Vec<Frictio
         work: 0.0,
         energy: 0.0,
         tally: Tally::default(),
-        lugre: matches!(friction.law, Law::LuGre(_)),
+        law: friction.law,
+        fastest: 0.0,
+        path: 0.0,
+        last: (snapshot.time(), 0.0),
     };
     model.frictions.iter().map(report).collect()
 }
@@ -117,6 +158,10 @@ pub(crate) fn add(reports: &mut [FrictionReport], wrenches: &Wrenches<'_>, dissi
         }
         report.regimes[number(values.regime)] += 1;
         report.clipped += usize::from(values.clipped);
+        let (time, speed) = (snapshot.time(), values.velocity.norm());
+        let (before, slower) = std::mem::replace(&mut report.last, (time, speed));
+        report.path += (time - before) * 0.5 * (speed + slower);
+        report.fastest = report.fastest.max(speed);
         report.work = snapshot.works()[place];
         report.energy = energy;
         report.tally = *snapshot.tally(place);

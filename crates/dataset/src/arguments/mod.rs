@@ -172,7 +172,7 @@ impl Parser<'_, '_> {
         match keyword.kind {
             Kind::Ignored(reason) => {
                 let message = format!("{} of {} has no effect: {reason}", full, self.statement);
-                self.diagnostics.warning(Code::Ignored, span, message);
+                self.diagnostics.note(Code::Ignored, span, message);
                 self.skip_value();
                 return None;
             }

@@ -5,8 +5,17 @@ use crate::diagnostic::{Code, Diagnostics};
 use crate::expression::{ArgumentKind, ElementKind, Expr, Expression, Function};
 use crate::model::{Dataset, RequestKind};
 
-/// Checks every expression of a dataset.
-pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+/// What an expression belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// An element that can move the model.
+    Motion,
+    /// A REQUEST or SENSOR.
+    Output,
+}
+
+/// Every expression of a dataset, and what it belongs to.
+fn all(dataset: &Dataset) -> impl Iterator<Item = (&Expression, Place)> {
     let constraints = dataset.constraints.iter().map(|element| &element.function);
     let motions = dataset.motions.iter().map(|element| &element.function);
     let forces = dataset
@@ -38,19 +47,45 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         .chain(vectors)
         .chain(variables)
         .chain(differentials);
-    let mut missing = Vec::new();
-    for expression in moving {
-        find_missing(dataset, expression, &mut missing);
-        friction(expression, Place::Motion, diagnostics);
-        floating(dataset, expression, diagnostics);
-    }
     let sensors = dataset.sensors.iter().map(|element| &element.function);
-    for expression in requests.flatten().chain(sensors) {
+    let outputs = requests.flatten().chain(sensors);
+    let moving = moving.map(|expression| (expression, Place::Motion));
+    moving.chain(outputs.map(|expression| (expression, Place::Output)))
+}
+
+/// Checks every expression of a dataset.
+pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
+    let mut missing = Vec::new();
+    for (expression, place) in all(dataset) {
         find_missing(dataset, expression, &mut missing);
-        friction(expression, Place::Output, diagnostics);
+        friction(expression, place, diagnostics);
         floating(dataset, expression, diagnostics);
     }
     report(dataset, missing, diagnostics);
+}
+
+/// Calls `mark` with the numbers in calls that name markers, or may name some.
+pub(crate) fn named_markers(dataset: &Dataset, mark: &mut impl FnMut(u32)) {
+    for (expression, _) in all(dataset) {
+        expression.root.visit(&mut |node| {
+            let Expr::Call {
+                function,
+                arguments,
+                ..
+            } = node
+            else {
+                return;
+            };
+            for (position, argument) in arguments.iter().enumerate() {
+                let kind = function.argument_kind(position);
+                let marker = *function == Function::User
+                    || matches!(kind, ArgumentKind::Marker | ArgumentKind::MarkerOrGround);
+                if let Some(id) = argument.as_id().filter(|_| marker) {
+                    mark(id);
+                }
+            }
+        });
+    }
 }
 
 /// Checks one expression of an element that moves the model; returns whether nothing is wrong.
@@ -100,15 +135,6 @@ fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagno
         }
     });
     right
-}
-
-/// What an expression belongs to.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
-    /// An element that can move the model.
-    Motion,
-    /// A REQUEST or SENSOR.
-    Output,
 }
 
 /// Checks the calls of `FRICTION(id, index)`, which only outputs may read; returns whether nothing

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{
-    Formulation, Friction, FrictionArguments, FrictionInputs, JointKind, LengthUnit, Yoke,
+    Formulation, Friction, FrictionArguments, FrictionInputs, JointKind, LengthUnit, TimeUnit, Yoke,
 };
 use crate::source::Span;
 use crate::statements::{Builder, FrictionPlaces};
@@ -119,7 +119,7 @@ pub(crate) fn unused_arguments(
     }
 }
 
-/// Defaults are plain numbers, meant for millimetres.
+/// Defaults are plain numbers, meant for millimetres and seconds.
 fn dimensional_defaults(
     builder: &Builder,
     friction: &Friction,
@@ -127,18 +127,18 @@ fn dimensional_defaults(
     head: Span,
     diagnostics: &mut Diagnostics,
 ) {
-    let length = builder
-        .dataset
-        .units
-        .as_ref()
-        .and_then(|units| units.length);
-    if length == Some(LengthUnit::Millimeter) {
-        return;
-    }
+    let units = builder.dataset.units.as_ref();
+    let length = units.and_then(|units| units.length);
+    let time = units.and_then(|units| units.time);
+    let of_length = length != Some(LengthUnit::Millimeter);
+    let of_time = time != Some(TimeUnit::Second);
     let defaults: Vec<String> = friction
         .defaults_in_use(joint)
         .into_iter()
-        .filter(|default| default.depends_on_length_unit())
+        .filter(|default| {
+            (of_length && default.depends_on_length_unit())
+                || (of_time && default.depends_on_time_unit())
+        })
         .map(|default| {
             let dimension = default.quantity.dimension().as_str();
             let keyword = default.quantity.keyword();
@@ -148,13 +148,20 @@ fn dimensional_defaults(
     if defaults.is_empty() {
         return;
     }
-    let unit = length.map_or("not given", LengthUnit::keyword);
+    let length = length.map_or("not given", LengthUnit::keyword);
+    let time = time.map_or("not given", TimeUnit::keyword);
+    let units = match (of_length, of_time) {
+        (true, false) => format!("the length unit, which is {length}"),
+        (false, _) => format!("the time unit, which is {time}"),
+        (true, true) => format!("the units, length {length} and time {time}"),
+    };
     let message = format!(
-        "FRICTION/{} uses defaults that depend on the length unit, which is {unit}: {}",
+        "FRICTION/{} uses defaults that depend on {units}: {}",
         friction.header.id,
         defaults.join(", ")
     );
     diagnostics
         .warning(Code::DimensionalDefault, head, message)
+        .note("they are plain numbers, meant for millimetres and seconds")
         .help("give these arguments in the units of the model");
 }

@@ -1,5 +1,6 @@
 //! What must hold for a whole model, checked when every statement is read.
 
+pub(crate) mod angles;
 mod connections;
 mod expressions;
 mod friction;
@@ -7,7 +8,7 @@ pub(crate) mod inertia;
 pub(crate) mod references;
 mod variables;
 
-pub(crate) use expressions::check as expression;
+pub(crate) use expressions::{check as expression, named_markers};
 pub(crate) use friction::unused_arguments;
 pub(crate) use variables::{circles, report as report_circle};
 

@@ -84,7 +84,7 @@ pub(crate) fn read_command(
         Action::Read(identified, keywords, read) => (identified, keywords, read),
         Action::Ignored(reason) => {
             let message = format!("{name} has no effect: {reason}");
-            diagnostics.warning(Code::Ignored, raw.head, message);
+            diagnostics.note(Code::Ignored, raw.head, message);
             return None;
         }
         Action::Unsupported => {

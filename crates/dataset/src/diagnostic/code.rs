@@ -126,6 +126,8 @@ codes! {
     ArgumentCount = "argument-count", "Give the function the arguments that it takes.";
     /// Variables that define each other in a circle.
     CircularVariables = "circular-variables", "Solve the equations for one of the variables.";
+    /// INVPSD makes a signal of random phases, which every program draws in its own way.
+    RandomPhases = "random-phases", "Nothing, unless runs of different programs are to be compared: then give the signal as a SPLINE.";
 
     // The model.
     /// A reference to an element that does not exist.
@@ -138,6 +140,16 @@ codes! {
     DegenerateOrientation = "degenerate-orientation", "Move the points apart, off one line through the origin of the frame.";
     /// A joint or force whose ends cannot be joined this way.
     InvalidConnection = "invalid-connection", "Name markers on two different parts, as the element needs them.";
+    /// The acceleration of gravity is that of the earth in another unit of length, such as 9.81 in a model in millimetres.
+    GravityUnit = "gravity-unit", "Give ACCGRAV in the length and time of UNITS: 9806.65 mm/s^2, 9.80665 m/s^2 or 386.09 in/s^2.";
+    /// A model with friction has no ACCGRAV: nothing has weight, and no weight loads the friction.
+    NoGravity = "no-gravity", "Add ACCGRAV; where there is no gravity, ACCGRAV/KGRAV=0 says so.";
+    /// An angle above a full turn in radians that is a round number of degrees, without the `D` that means degrees.
+    DegreesWithoutD = "degrees-without-d", "Write `90D` for ninety degrees.";
+    /// Markers that nothing uses: not a joint, force, function, request or graphic. A reference that names another marker by mistake leaves such a marker behind.
+    UnusedMarker = "unused-marker", "Check whether a reference should name one of them; else remove them, or allow this code.";
+    /// A part without mass or inertia that can move although nothing with mass moves: no law of motion says how.
+    MasslessPart = "massless-part", "Give the part mass and inertia, or join it with a FIXED joint.";
     /// A motion or coupler on a freedom that the joint does not have.
     NoSuchFreedom = "no-such-freedom", "Name a freedom that the joint has.";
     /// An element that rests because its joint is deactivated.
@@ -154,8 +166,14 @@ codes! {
     StaticBelowDynamic = "static-below-dynamic", "Exchange the two coefficients, or make them equal.";
     /// A default that is a plain number, meant for millimetres and seconds, in a model with other units. A transition velocity of 0.1 is slow in mm/s and fast in m/s.
     DimensionalDefault = "dimensional-default", "Give the arguments in the units of the model.";
-    /// INVPSD makes a signal of random phases, which every program draws in its own way.
-    RandomPhases = "random-phases", "Nothing, unless runs of different programs are to be compared: then give the signal as a SPLINE.";
+    /// INPUTS or EFFECT of a FRICTION leaves out a part of the friction that its joint has: a load that makes none, or the regime of stiction or of sliding.
+    SwitchedOff = "switched-off", "Leave INPUTS and EFFECT out where the whole friction is meant; else allow this code.";
+    /// A FRICTION that is zero whatever happens, because no load of its joint makes friction.
+    NoFriction = "no-friction", "Add the loads to INPUTS, give the preload, or remove the FRICTION.";
+    /// A FRICTION in a joint whose motion is prescribed: it cannot change that motion and shows in the force of the MOTION only.
+    PrescribedFriction = "prescribed-friction", "Read the friction in the torque of the MOTION; or drive the joint by a force, which friction resists.";
+    /// A FRICTION whose surfaces have moved far and never faster than `STICTION_TRANSITION_VELOCITY`: all that time the joint was in stiction, `MU_DYNAMIC` had no part in it, and the creep of the law takes the place of motion.
+    NeverSlides = "never-slides", "Give STICTION_TRANSITION_VELOCITY (in the units of the model) a value well below the speeds of the surfaces.";
     /// The reaction that loads a friction is not unique, because constraints of the model are redundant: another choice of the equations that are left out gives another friction.
     ReactionNotUnique = "reaction-not-unique", "Replace joints by such that constrain the mechanism once, as a HOOKE, SPHERICAL or INLINE for a REVOLUTE.";
 

@@ -27,6 +27,12 @@ impl<'a> Diagnostics<'a> {
         }
     }
 
+    /// Whether an error is among the messages so far.
+    pub(crate) fn has_error(&self) -> bool {
+        let mut severities = self.list.iter().map(|diagnostic| diagnostic.severity);
+        self.dropped_errors > 0 || severities.any(|severity| severity == Severity::Error)
+    }
+
     pub(crate) fn error(
         &mut self,
         code: Code,
@@ -43,6 +49,15 @@ impl<'a> Diagnostics<'a> {
         message: impl Into<String>,
     ) -> &mut Diagnostic {
         self.add(Severity::Warning, code, span, message.into())
+    }
+
+    pub(crate) fn note(
+        &mut self,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        self.add(Severity::Note, code, span, message.into())
     }
 
     fn add(

@@ -268,6 +268,17 @@ impl DefaultInUse {
         );
         dimensional && self.value > 0.0 && self.value < 1e39
     }
+
+    /// Whether the default means another thing in another time unit: a velocity or damping that
+    /// is neither zero nor unlimited.
+    #[must_use]
+    pub fn depends_on_time_unit(self) -> bool {
+        let timed = matches!(
+            self.quantity.dimension(),
+            Dimension::Velocity | Dimension::Damping
+        );
+        timed && self.depends_on_length_unit()
+    }
 }
 
 /// FRICTION.

@@ -1,6 +1,7 @@
 //! SFORCE and SPRINGDAMPER.
 
 use super::{Builder, Target, add};
+use crate::checks::angles;
 use crate::diagnostic::Code;
 use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{ForceDirection, SingleForce, SpringDamper};
@@ -81,6 +82,7 @@ pub(super) fn spring_damper(reading: &mut Reading, builder: &mut Builder) {
             }
         }
     }
+    angles::check(reading, "ANGLE", 1);
     let [stiffness, damping, free_length, preload] =
         used.map(|keyword| reading.real(keyword).unwrap_or(0.0));
     let spring = SpringDamper {

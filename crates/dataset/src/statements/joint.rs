@@ -1,6 +1,7 @@
 //! JOINT, JPRIM and GCON.
 
 use super::{Builder, Target, add};
+use crate::checks::angles;
 use crate::diagnostic::Code;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{
@@ -115,6 +116,11 @@ pub(super) fn joint(reading: &mut Reading, builder: &mut Builder) {
 }
 
 fn push(reading: &mut Reading, builder: &mut Builder, kind: JointKind) {
+    match kind {
+        JointKind::Revolute => angles::check(reading, "IC", 1),
+        JointKind::Cylindrical => angles::check(reading, "ICROT", 1),
+        _ => {}
+    }
     let initial = |keyword| match reading.reals(keyword) {
         [] => None,
         values => Some(InitialCondition {

@@ -33,7 +33,8 @@ pub(crate) use vector_force::{
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{Dataset, Element, Elements, FrictionArguments};
 use crate::reading::Reading;
-use crate::source::Span;
+use crate::source::{Source, Span};
+use crate::syntax::{Item, TokenKind};
 
 /// What an identifier names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -85,8 +86,12 @@ pub(crate) struct FrictionPlaces {
 pub(crate) struct Builder {
     pub(crate) dataset: Dataset,
     pub(crate) references: Vec<Reference>,
+    /// Numbers in what is not read, any of which may name a marker.
+    pub(crate) mentioned: Vec<u32>,
     /// What checks need of every FRICTION, in the order of `dataset.frictions`.
     pub(crate) frictions: Vec<FrictionPlaces>,
+    /// The place of ACCGRAV.
+    pub(crate) gravity: Option<Span>,
     /// The part before the statement, which owns markers that name no part.
     pub(crate) last_part: Option<u32>,
     /// Statements without identifier seen so far.
@@ -94,6 +99,13 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
+    /// Takes the whole numbers in items that are not read for identifiers of markers.
+    pub(crate) fn mention(&mut self, source: &Source, items: &[Item]) {
+        let numbers = items.iter().filter(|item| item.kind() == TokenKind::Number);
+        let ids = numbers.filter_map(|item| source.slice(item.span()).parse::<u32>().ok());
+        self.mentioned.extend(ids);
+    }
+
     /// The identifier in an argument, which must name an element; 0, where an argument takes it,
     /// stands for the ground and names none.
     pub(crate) fn refer(

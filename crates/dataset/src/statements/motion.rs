@@ -1,6 +1,7 @@
 //! MOTION.
 
 use super::{Builder, Target, add};
+use crate::checks::angles;
 use crate::diagnostic::Code;
 use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{Motion, MotionDirection, MotionLevel, MotionTarget};
@@ -78,8 +79,11 @@ pub(super) fn motion(reading: &mut Reading, builder: &mut Builder) {
         if reading.has(keyword) && !used {
             let message = format!("{keyword} has no effect: the function gives it already");
             let span = reading.place(keyword);
-            reading.diagnostics.warning(Code::Ignored, span, message);
+            reading.diagnostics.note(Code::Ignored, span, message);
         }
+    }
+    if turns(target) {
+        angles::check(reading, "ICDISP", 1);
     }
     let motion = Motion {
         header: reading.header(),
@@ -95,4 +99,14 @@ pub(super) fn motion(reading: &mut Reading, builder: &mut Builder) {
         reading.name,
         reading.diagnostics,
     );
+}
+
+/// Whether it is an angle that a motion prescribes.
+const fn turns(target: MotionTarget) -> bool {
+    use MotionDirection as D;
+    match target {
+        MotionTarget::JointRotation(_) => true,
+        MotionTarget::JointTranslation(_) => false,
+        MotionTarget::Markers { direction, .. } => matches!(direction, D::B1 | D::B2 | D::B3),
+    }
 }

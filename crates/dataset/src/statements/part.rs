@@ -1,7 +1,7 @@
 //! PART, `POINT_MASS` and MARKER.
 
 use super::{Builder, Reference, Target, add};
-use crate::checks::inertia;
+use crate::checks::{angles, inertia};
 use crate::diagnostic::Code;
 use crate::keywords::{Keyword, Kind, abbreviated, keyword};
 use crate::model::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
@@ -43,7 +43,7 @@ pub(super) fn part(reading: &mut Reading, builder: &mut Builder) {
             if reading.has(keyword) {
                 let message = format!("{keyword} of the ground has no effect");
                 let span = reading.place(keyword);
-                reading.diagnostics.warning(Code::Ignored, span, message);
+                reading.diagnostics.note(Code::Ignored, span, message);
             }
         }
     }
@@ -232,6 +232,7 @@ fn orientation(
 ) -> Orientation {
     reading.exclude("REULER", &[z_name, x_name, "USEXP"]);
     if let Some(angles) = reading.vector("REULER") {
+        angles::check(reading, "REULER", 3);
         return Orientation::Euler(angles);
     }
     let (z, x) = (reading.vector(z_name), reading.vector(x_name));

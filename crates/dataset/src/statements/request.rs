@@ -146,6 +146,7 @@ fn variables(reading: &mut Reading) -> [Option<Expression>; 8] {
 /// GRAPHICS: the first flag is the type, everything else is kept as written.
 pub(super) fn graphics(reading: &mut Reading, builder: &mut Builder) {
     let source = reading.diagnostics.source;
+    builder.mention(source, reading.items);
     let mut kind = String::new();
     let mut arguments = Vec::new();
     for argument in free(source, reading.items) {

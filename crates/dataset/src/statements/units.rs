@@ -115,4 +115,5 @@ pub(crate) fn gravity(reading: &Reading) -> [Option<f64>; 3] {
 pub(super) fn accgrav(reading: &mut Reading, builder: &mut Builder) {
     let components = gravity(reading).map(|component| component.unwrap_or(0.0));
     builder.dataset.gravity = Some(components);
+    builder.gravity = Some(reading.span);
 }

@@ -257,7 +257,7 @@ fn the_slider_sticks_and_slips_as_its_equations_say() {
     }
     // What LUGRE does beyond holding is told.
     let remarks = friction.remarks();
-    let [(_, drift), (_, energy)] = remarks.as_slice() else {
+    let [(_, _, drift), (_, _, energy)] = remarks.as_slice() else {
         panic!("{remarks:?}");
     };
     assert!(drift.contains("LUGRE has drifted by"), "{drift}");
