@@ -1,5 +1,6 @@
 //! Run-time expressions: the syntax tree of a FUNCTION argument.
 
+mod foreign;
 mod function;
 mod parser;
 

@@ -8,7 +8,7 @@
 //! primary = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
 //! ```
 
-use super::{ArgumentKind, BinaryOperator, DEEPEST, Expr, Expression, Function};
+use super::{ArgumentKind, BinaryOperator, DEEPEST, Expr, Expression, Function, foreign};
 use crate::diagnostic::Code;
 use crate::names;
 use crate::source::{Source, Span};
@@ -335,6 +335,10 @@ impl Parser<'_> {
 
     fn unknown(&self, item: Item, name: &str) -> Problem {
         let shown = self.source.excerpt(item.span());
+        if let Some(reason) = foreign::reason(name) {
+            let message = format!("{shown} is not simulated: {reason}");
+            return self.problem(Code::UnsupportedFunction, item.span(), message);
+        }
         let message = format!("no function or constant is called {shown}");
         let mut problem = self.problem(Code::UnknownFunction, item.span(), message);
         let functions = Function::ALL.iter().map(|function| function.name());

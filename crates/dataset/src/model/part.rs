@@ -100,7 +100,8 @@ pub enum MarkerOwner {
     Part(u32),
     /// `POINT_MASS`, by id.
     PointMass(u32),
-    /// `FLEX_BODY`, `FE_PART`, CURVE or SURFACE: never in a dataset without errors.
+    /// `FLEX_BODY`, `FE_PART`, `EXTERNAL_SYSTEM`, CURVE or SURFACE: never in a dataset without
+    /// errors.
     Refused,
 }
 

@@ -48,6 +48,7 @@ pub(super) const FIELD_KEYWORDS: &[Keyword] = &[
     abbreviated("CRATIO", "CR", Kind::Real),
     abbreviated("LENGTH", "L", SIX),
     abbreviated("FORCE", "FO", SIX),
+    keyword("FORMULATION", Kind::Word),
     abbreviated("FUNCTION", "FU", Kind::Unsupported(SUBROUTINE)),
     ROUTINE,
     INTERFACE,
@@ -58,6 +59,15 @@ pub(super) fn field(reading: &mut Reading, builder: &mut Builder) {
     reading.exclude("CMATRIX", &["CRATIO"]);
     if reading.has("CRATIO") {
         reading.require("KMATRIX");
+    }
+    let formulations = [("LINEAR", true), ("NONLINEAR", false)];
+    if reading.choice("FORMULATION", &formulations) == Some(false) {
+        let span = reading.place("FORMULATION");
+        let message = "fields are simulated with FORMULATION = LINEAR only";
+        reading
+            .diagnostics
+            .error(Code::UnsupportedArgument, span, message)
+            .help("write LINEAR where the rotations are small, else a GFORCE with its components");
     }
     let stiffness = by_columns(reading, "KMATRIX");
     let damping = match reading.not_negative("CRATIO") {

@@ -141,6 +141,7 @@ pub(super) const MARKER_KEYWORDS: &[Keyword] = &[
     abbreviated("POINT_MASS", "POI", Kind::Id),
     abbreviated("FLEX_BODY", "FLE", Kind::Unsupported(FLEXIBLE)),
     keyword("FE_PART", Kind::Unsupported(FLEXIBLE)),
+    keyword("EXTERNAL_SYSTEM", Kind::Unsupported(FLEXIBLE)),
     // NODE is the name of NODE_ID in the old Fortran solver.
     keyword("NODE", Kind::Unsupported(FLEXIBLE)),
     abbreviated("NODE_ID", "NOD", Kind::Unsupported(FLEXIBLE)),
@@ -166,6 +167,7 @@ pub(super) fn marker(reading: &mut Reading, builder: &mut Builder) {
         "POINT_MASS",
         "FLEX_BODY",
         "FE_PART",
+        "EXTERNAL_SYSTEM",
         "CURVE",
         "SURFACE",
     ]

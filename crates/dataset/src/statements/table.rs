@@ -73,6 +73,7 @@ const fn unsupported(full: &'static str, least: &'static str) -> Rule {
 /// Why a statement that only holds data is harmless: whatever could use it is refused.
 const DATA: &str = "nothing that is simulated can use it";
 
+const INTEGRATOR: &str = "write its arguments in INTEGRATOR";
 const ONLY_REPORTS: &str = "it only reports distances";
 
 /// Every statement of the language.
@@ -198,6 +199,11 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     ignored("SECTION", "only flexible parts have a cross-section"),
     ignored("DEBUG", "it asks for diagnostics of another program"),
     ignored("ENVIRONMENT", "stiction reads no environment variables"),
+    // What INTEGRATOR was in old datasets.
+    ignored("ABAM", INTEGRATOR),
+    ignored("DSTIFF", INTEGRATOR),
+    ignored("GSTIFF", INTEGRATOR),
+    ignored("WSTIFF", INTEGRATOR),
     ignored("LSOLVER", "stiction has one linear solver"),
     ignored("LIST", "stiction prints no listing"),
     ignored("NOLIST", "stiction prints no listing"),
