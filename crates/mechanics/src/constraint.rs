@@ -116,8 +116,20 @@ pub(crate) fn equations_of(kind: JointKind) -> Vec<Equation> {
         JointKind::Translational => [on_axis, &ORIENTATION[..]].concat(),
         JointKind::Cylindrical => [on_axis, parallel].concat(),
         JointKind::Screw { pitch, start } => {
-            [on_axis, parallel, &[Equation::Thread { pitch, start }]].concat()
+            let about = Axis::Z;
+            let thread = Equation::Thread {
+                about,
+                pitch,
+                start,
+            };
+            [on_axis, parallel, &[thread]].concat()
         }
+        JointKind::RackPinion { pitch, start } => vec![Equation::Thread {
+            about: Axis::PINION,
+            pitch,
+            start,
+        }],
+        JointKind::ConstantVelocity { away } => [point, &[Equation::EvenTurns { away }]].concat(),
         JointKind::Spherical | JointKind::AtPoint => point.to_vec(),
         JointKind::Planar => [parallel, &POINT[2..]].concat(),
         JointKind::Fixed => [point, &ORIENTATION[..]].concat(),
@@ -144,6 +156,8 @@ pub(crate) fn codirected_axes(kind: JointKind) -> &'static [usize] {
         | JointKind::AtPoint
         | JointKind::Hooke
         | JointKind::Universal
+        | JointKind::ConstantVelocity { .. }
+        | JointKind::RackPinion { .. }
         | JointKind::Inline
         | JointKind::Inplane
         | JointKind::Perpendicular => &[],
@@ -234,6 +248,10 @@ pub(crate) fn name(form: Form) -> String {
             equation: Equation::Thread { .. },
             ..
         } => "thread along Zj".to_owned(),
+        Form::Pair {
+            equation: Equation::EvenTurns { .. },
+            ..
+        } => "even turns of Zi and Zj".to_owned(),
         Form::Function => "function".to_owned(),
     }
 }

@@ -8,11 +8,12 @@
 //! axes    g = a_I · b_J          axes of I and of J; a torque along a_I × b_J
 //! ```
 //!
-//! and motions, friction and screws add angles,
+//! and motions, friction, screws, racks and constant velocity joints add angles,
 //!
 //! ```text
 //! about   g = ±atan2(a_I · b_J, c_I · d_J)     about z of J, or about a pin of a cross
-//! thread  g = d · z_J − start − pitch/2π · (angle about z of J)
+//! thread  g = d · z_J − start − pitch/2π · (angle about z of J, or of a pinion about z of I)
+//! even    g = x_I · y_J ± y_I · x_J            shafts along z of I and of J turn evenly
 //! ```
 //!
 //! With a multiplier λ an equation applies to I the force and torque `λ ∂g/∂(δr_I, δθ_I)`, and to J
@@ -41,12 +42,22 @@ pub(crate) enum Equation {
     Axes(usize, usize),
     /// Angle of I against J.
     About(Axis),
-    /// Displacement along z of J less what a thread of this pitch makes of the angle about it.
+    /// Displacement along z of J less what a thread of this pitch makes of an angle: that about z
+    /// of J, or for a pinion I on a rack J that from z of J to x of I about z of I.
     Thread {
+        /// The angle.
+        about: Axis,
         /// Length a turn.
         pitch: f64,
         /// Displacement at the angle zero.
         start: f64,
+    },
+    /// The axis about which I is turned against J (half a turn about x taken off where z of I and J
+    /// point away from one another) has no part along z: so shafts along z turn evenly however
+    /// they are bent. `x_I · y_J − y_I · x_J`, with a plus in the second case.
+    EvenTurns {
+        /// Whether z of I and z of J point away from one another.
+        away: bool,
     },
 }
 
@@ -89,6 +100,10 @@ impl Pin {
 }
 
 impl Axis {
+    /// z of a pinion I, the angle being that from z of its rack J to x of I: as if the rack carried
+    /// the other pin of a universal joint.
+    pub(crate) const PINION: Self = Self::Pin(Pin::UniversalI);
+
     /// Sign and axes (of I, of J) of sine and cosine: the other pin seen in axes that are fixed to
     /// the part of this one. For a pin of I the part turns, not what is seen: the sign is negative.
     const fn angle(self) -> (f64, [(usize, usize); 2]) {
@@ -134,7 +149,20 @@ impl Equation {
             Self::Along(k) => along(i, j, k),
             Self::Axes(k, l) => axes(i, j, k, l),
             Self::About(axis) => about(i, j, axis),
-            Self::Thread { pitch, start } => thread(i, j, pitch, start),
+            Self::Thread {
+                about,
+                pitch,
+                start,
+            } => thread(i, j, about, pitch, start),
+            Self::EvenTurns { away } => {
+                let (x, y) = (axes(i, j, 0, 1), axes(i, j, 1, 0));
+                let sign = if away { 1.0 } else { -1.0 };
+                Row {
+                    value: x.value + sign * y.value,
+                    jacobian: x.jacobian + sign * y.jacobian,
+                    bias: x.bias + sign * y.bias,
+                }
+            }
         }
     }
 
@@ -142,7 +170,7 @@ impl Equation {
     pub(crate) const fn first_motion(self) -> usize {
         match self {
             Self::Along(_) | Self::Thread { .. } => 0,
-            Self::Axes(..) | Self::About(_) => 3,
+            Self::Axes(..) | Self::About(_) | Self::EvenTurns { .. } => 3,
         }
     }
 
@@ -155,8 +183,12 @@ impl Equation {
             Self::Along(k) => along_stiffness(i, j, k),
             Self::Axes(k, l) => axes_stiffness(i, j, k, l),
             Self::About(axis) => about_stiffness(i, j, axis),
-            Self::Thread { pitch, .. } => {
-                along_stiffness(i, j, 2) - about_stiffness(i, j, Axis::Z) * (pitch / TAU)
+            Self::Thread { about, pitch, .. } => {
+                along_stiffness(i, j, 2) - about_stiffness(i, j, about) * (pitch / TAU)
+            }
+            Self::EvenTurns { away } => {
+                let sign = if away { 1.0 } else { -1.0 };
+                axes_stiffness(i, j, 0, 1) + sign * axes_stiffness(i, j, 1, 0)
             }
         }
     }
@@ -261,8 +293,8 @@ fn about_stiffness(i: &MarkerFrame, j: &MarkerFrame, axis: Axis) -> LocalMatrix 
         - dc * by_cosine.transpose())
 }
 
-fn thread(i: &MarkerFrame, j: &MarkerFrame, pitch: f64, start: f64) -> Row {
-    let (along, about) = (along(i, j, 2), about(i, j, Axis::Z));
+fn thread(i: &MarkerFrame, j: &MarkerFrame, axis: Axis, pitch: f64, start: f64) -> Row {
+    let (along, about) = (along(i, j, 2), about(i, j, axis));
     let factor = pitch / TAU;
     let value = along.value - start - factor * about.value;
     Row {
@@ -301,7 +333,7 @@ mod tests {
         made
     }
 
-    const ALL: [Equation; 11] = [
+    const ALL: [Equation; 14] = [
         Equation::Along(0),
         Equation::Along(2),
         Equation::Axes(2, 0),
@@ -313,9 +345,17 @@ mod tests {
         Equation::About(Axis::Pin(Pin::UniversalI)),
         Equation::About(Axis::Pin(Pin::UniversalJ)),
         Equation::Thread {
+            about: Axis::Z,
             pitch: 3.0,
             start: 0.4,
         },
+        Equation::Thread {
+            about: Axis::PINION,
+            pitch: -2.0,
+            start: 0.3,
+        },
+        Equation::EvenTurns { away: true },
+        Equation::EvenTurns { away: false },
     ];
 
     /// Central differences of `f` over the twelve motions at step 1e-5: truncation 1e-10 times the

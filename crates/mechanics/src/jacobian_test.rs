@@ -33,7 +33,7 @@ fn vector(seed: usize) -> Vector3<f64> {
     )
 }
 
-const KINDS: [JointKind; 15] = [
+const KINDS: [JointKind; 17] = [
     JointKind::Revolute,
     JointKind::Translational,
     JointKind::Cylindrical,
@@ -51,6 +51,11 @@ const KINDS: [JointKind; 15] = [
     JointKind::Screw {
         pitch: 3.0,
         start: 0.4,
+    },
+    JointKind::ConstantVelocity { away: true },
+    JointKind::RackPinion {
+        pitch: -2.0,
+        start: 0.3,
     },
 ];
 

@@ -103,6 +103,20 @@ pub enum JointKind {
     Hooke,
     /// Origins coincide, z of I perpendicular to z of J.
     Universal,
+    /// Origins coincide, and shafts along z of I and z of J turn evenly however they are bent.
+    ConstantVelocity {
+        /// Whether z of I and z of J point away from one another, so that they turn by opposite
+        /// angles.
+        away: bool,
+    },
+    /// A pinion I on a rack J: I moves along z of J by `pitch` while it turns about its own z once
+    /// against J. Their other displacements are free.
+    RackPinion {
+        /// Length a turn.
+        pitch: f64,
+        /// Displacement of I along z of J where x of I is along z of J.
+        start: f64,
+    },
     /// Primitive: origins coincide.
     AtPoint,
     /// Primitive: I's origin on the z axis of J.

@@ -25,11 +25,22 @@ pub enum JointKind {
     Hooke,
     /// `o_I = o_J`, `z_I` perpendicular to `z_J`.
     Universal,
-    /// Constant velocity; never in a dataset without errors.
+    /// `o_I = o_J`; shafts along `z_I` and `z_J` turn evenly however they are bent.
+    ///
+    /// The documentation has `z_I` and `z_J` point along the shafts away from the common origin,
+    /// turning by opposite angles: `x_I y_J + y_I x_J = 0`. The difference, which is zero for the
+    /// markers that it shows, holds always where such shafts are in line, so that it cannot be the
+    /// equation. For markers whose z axes point the same way the difference does what is meant.
     ConstantVelocity,
     /// As cylindrical, with `z_I` displaced by PITCH along `z_J` for every turn about it.
     Screw,
-    /// Rack and pinion; never in a dataset without errors.
+    /// A pinion, which turns about `z_I`, rolls along a rack, whose pitch line is along `z_J`.
+    ///
+    /// The documentation of Adams View says that `x_I` stands parallel to `z_J` and that the
+    /// pinion's axis is PD/2 off the rack's axis, which other joints have to keep. So the rack
+    /// moves with the velocity of the pinion where it touches the rack's axis: which way follows
+    /// from the side of the rack on which the pinion stands. That I is the pinion and J the rack is
+    /// how Project Chrono reads this joint.
     RackPinion,
 }
 
@@ -104,6 +115,8 @@ pub struct Joint {
     pub j: u32,
     /// PITCH of a screw joint: length a turn, not zero, positive for a right-hand thread.
     pub pitch: Option<f64>,
+    /// PD of a rack and pinion: pitch diameter, not zero; a negative one turns the direction round.
+    pub pitch_diameter: Option<f64>,
     /// IC of a translational joint, ICTRAN of a cylindrical one.
     pub ic_translation: Option<InitialCondition>,
     /// IC of a revolute joint, ICROT of a cylindrical one.

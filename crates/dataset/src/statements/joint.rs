@@ -10,7 +10,6 @@ use crate::model::{
 use crate::reading::Reading;
 
 const LEGACY: &str = "friction inside JOINT is that of the old Fortran solver; use FRICTION";
-const NO_RACK: &str = "use COUPLER for a rack and its pinion";
 
 pub(super) const JOINT_KEYWORDS: &[Keyword] = &[
     keyword("CONVEL", Kind::Flag),
@@ -30,7 +29,7 @@ pub(super) const JOINT_KEYWORDS: &[Keyword] = &[
     abbreviated("ICTRAN", "ICT", Kind::Reals(1, 2)),
     abbreviated("ICROT", "ICR", Kind::Reals(1, 2)),
     abbreviated("PITCH", "PI", Kind::Real),
-    keyword("PD", Kind::Unsupported(NO_RACK)),
+    keyword("PD", Kind::Real),
     keyword("FRICTION", Kind::Unsupported(LEGACY)),
     keyword("DELTA_V", Kind::Unsupported(LEGACY)),
     keyword("HEIGHT", Kind::Unsupported(LEGACY)),
@@ -70,26 +69,14 @@ pub(super) fn joint(reading: &mut Reading, builder: &mut Builder) {
         // The identifier is known, so that references to it are not reported as well.
         return push(reading, builder, JointKind::Fixed);
     };
-    if let JointKind::ConstantVelocity | JointKind::RackPinion = kind {
-        let span = reading.place(kind.keyword());
-        let message = format!("joints of type {} are not simulated yet", kind.keyword());
-        let error = reading
-            .diagnostics
-            .error(Code::UnsupportedArgument, span, message);
-        if kind == JointKind::RackPinion {
-            error.help(
-                "write a COUPLER of the TRANSLATIONAL joint of the rack and the REVOLUTE joint of \
-                 the pinion, with SCALES = 1, -PD/2 or 1, PD/2",
-            );
+    for (screw, keyword) in [(JointKind::Screw, "PITCH"), (JointKind::RackPinion, "PD")] {
+        if kind == screw {
+            reading.require(keyword);
         }
-    }
-    if kind == JointKind::Screw {
-        reading.require("PITCH");
-        if reading.real("PITCH") == Some(0.0) {
-            let span = reading.place("PITCH");
-            reading
-                .diagnostics
-                .error(Code::OutOfRange, span, "PITCH must not be 0");
+        if kind == screw && reading.real(keyword) == Some(0.0) {
+            let span = reading.place(keyword);
+            let message = format!("{keyword} must not be 0");
+            reading.diagnostics.error(Code::OutOfRange, span, message);
         }
     }
     for (keyword, allowed) in [
@@ -100,6 +87,7 @@ pub(super) fn joint(reading: &mut Reading, builder: &mut Builder) {
         ("ICTRAN", matches!(kind, JointKind::Cylindrical)),
         ("ICROT", matches!(kind, JointKind::Cylindrical)),
         ("PITCH", matches!(kind, JointKind::Screw)),
+        ("PD", matches!(kind, JointKind::RackPinion)),
     ] {
         if reading.has(keyword) && !allowed {
             let span = reading.place(keyword);
@@ -137,6 +125,7 @@ fn push(reading: &mut Reading, builder: &mut Builder, kind: JointKind) {
         header: reading.header(),
         kind,
         pitch: reading.real("PITCH"),
+        pitch_diameter: reading.real("PD"),
         ic_translation: translation,
         ic_rotation: rotation,
         i: builder.require(reading, "I", Target::Marker),

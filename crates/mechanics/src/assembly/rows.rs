@@ -149,7 +149,7 @@ impl System {
 pub(super) fn scale_of(form: Form, evaluated: &Evaluated, length: f64) -> (f64, &'static str) {
     match form {
         Form::Pair {
-            equation: Equation::Along(_),
+            equation: Equation::Along(_) | Equation::Thread { .. },
             ..
         } => (1.0 / length, LENGTH),
         Form::Pair { .. } => (1.0, ANGLE),

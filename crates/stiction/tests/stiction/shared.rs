@@ -66,3 +66,16 @@ pub(crate) fn run_text(text: &str, end: f64, steps: u32, error: Option<f64>) -> 
     std::fs::remove_dir_all(folder).unwrap();
     results
 }
+
+/// What is said about a dataset that is not simulated.
+pub(crate) fn refusal(text: &str) -> String {
+    let folder = scratch_folder();
+    let file = folder.join("model.adm");
+    std::fs::write(&file, text).unwrap();
+    let refused = match Project::load(&file) {
+        Ok(project) => Session::new(&project).unwrap_err().to_string(),
+        Err(error) => error.to_string(),
+    };
+    std::fs::remove_dir_all(folder).unwrap();
+    refused
+}
