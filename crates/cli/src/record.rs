@@ -17,10 +17,10 @@ use crate::exit::Exit;
 
 /// What a run warns of, and what is denied of that; the error that ended it is not among them.
 pub(crate) fn beside_the_outcome(report: &RunReport) -> impl Iterator<Item = &Message> {
-    let completed = report.outcome == Outcome::Completed;
+    let (_, told) = words(&report.outcome);
     let messages = report.messages.iter();
     messages.filter(move |message| match message.diagnostic.severity {
-        Severity::Error => completed,
+        Severity::Error => told != Some(message.to_string().trim_end()),
         Severity::Warning => true,
         Severity::Note => false,
     })

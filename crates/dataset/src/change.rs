@@ -2,7 +2,7 @@
 
 pub(crate) use crate::statements::{
     EQUILIBRIUM_KEYWORDS, GFORCE_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS,
-    SFORCE_KEYWORDS, VARIABLE_KEYWORDS, VFORCE_KEYWORDS, VTORQUE_KEYWORDS,
+    PREFERENCES_KEYWORDS, SFORCE_KEYWORDS, VARIABLE_KEYWORDS, VFORCE_KEYWORDS, VTORQUE_KEYWORDS,
 };
 
 use crate::checks;
@@ -210,6 +210,13 @@ pub(crate) fn equilibrium(reading: &mut Reading) -> Option<CommandKind> {
     Some(change(reading, kind))
 }
 
+/// PREFERENCES as a command.
+pub(crate) fn preferences(reading: &mut Reading) -> Option<CommandKind> {
+    something(reading);
+    let kind = ChangeKind::Preferences(statements::preferences(reading));
+    Some(change(reading, kind))
+}
+
 /// ACCGRAV as a command.
 pub(crate) fn gravity(reading: &mut Reading) -> Option<CommandKind> {
     something(reading);
@@ -363,6 +370,10 @@ impl Dataset {
             ChangeKind::Equilibrium(given) => {
                 self.equilibrium.get_or_insert_default().take(given);
             }
+            ChangeKind::Preferences(given) => {
+                let preferences = self.preferences.get_or_insert_default();
+                preferences.stop_on_failure = given.stop_on_failure.or(preferences.stop_on_failure);
+            }
             ChangeKind::Activity(activity) => self.switch(activity, change.span, diagnostics),
             ChangeKind::Gravity(components) => {
                 let gravity = self.gravity.get_or_insert_default();
@@ -395,7 +406,7 @@ impl ChangeKind {
     #[must_use]
     pub fn is_of_model(&self) -> bool {
         match self {
-            Self::Integrator(_) | Self::Equilibrium(_) => false,
+            Self::Integrator(_) | Self::Equilibrium(_) | Self::Preferences(_) => false,
             Self::Friction { arguments, .. } => **arguments != FrictionArguments::default(),
             Self::Activity(activity) => activity.kind != Switchable::Sensor,
             _ => true,
@@ -415,6 +426,7 @@ impl Change {
             ChangeKind::Friction { id, .. } => ("FRICTION", id),
             ChangeKind::Integrator(_) => ("INTEGRATOR", 0),
             ChangeKind::Equilibrium(_) => ("EQUILIBRIUM", 0),
+            ChangeKind::Preferences(_) => ("PREFERENCES", 0),
             ChangeKind::Activity(Activity { active: true, .. }) => ("ACTIVATE", 0),
             ChangeKind::Activity(_) => ("DEACTIVATE", 0),
             ChangeKind::Gravity(_) => ("ACCGRAV", 0),

@@ -1,6 +1,5 @@
 //! A project looked at without running it.
 
-use dataset::{Code, CommandKind, Diagnostic, Severity, SimulationKind};
 use mechanics::{Moved, Redundancy};
 
 use crate::defaults::{FrictionDefaults, defaults_in_use};
@@ -36,7 +35,6 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
     let (_, surveyed) = project.survey()?;
     let mut messages = project.warnings().to_vec();
     messages.extend(surveyed);
-    messages.extend(refused_simulations(project));
     let dataset = project.dataset();
     let mut simulation = project.simulation()?;
     let counts = [
@@ -87,30 +85,6 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         }
     }
     Ok(report)
-}
-
-/// Errors for the commands that ask for an analysis that is not simulated.
-fn refused_simulations(project: &Project) -> Vec<Message> {
-    let refused = project.steps().iter().filter_map(|step| {
-        let CommandKind::Simulate(simulate) = &step.command.kind else {
-            return None;
-        };
-        if simulate.kind != SimulationKind::Settle {
-            return None;
-        }
-        let source = project.source(step.source);
-        let message = format!("SIMULATE/{} is not simulated yet", simulate.kind.keyword());
-        let mut diagnostic = Diagnostic::new(
-            Severity::Error,
-            Code::UnsupportedStatement,
-            source.name(),
-            step.command.span,
-            message,
-        );
-        diagnostic.help("a run ends there; what comes before it is simulated");
-        Some(Message::new(diagnostic, source))
-    });
-    refused.collect()
 }
 
 impl std::fmt::Display for CheckReport {

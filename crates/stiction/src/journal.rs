@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use dataset::{Code, Dataset, Severity};
 use mechanics::model::{Label, Model};
 use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
-use results::{MessageWriter, StepRow};
+use results::{DataKind, MessageWriter, StepRow};
 
 use crate::about::about;
 use crate::balance::{EnergyBalance, SUSPICIOUS};
@@ -15,7 +15,7 @@ use crate::lower::APPLIED;
 use crate::message::Message;
 use crate::project::Project;
 use crate::report::{FrictionReport, friction_table};
-use crate::session::OutputError;
+use crate::session::{Outcome, OutputError};
 use crate::warnings;
 use crate::wrenches::Wrenches;
 
@@ -107,9 +107,20 @@ impl<'p, W: Write> Journal<'p, W> {
         Ok(())
     }
 
-    /// Keeps the error that ends the run, which its end tells.
-    pub(crate) fn keep(&mut self, message: Message) {
-        self.messages.push(message);
+    /// A simulation that has failed: how, and the message about it where there is one.
+    pub(crate) fn failed(
+        &mut self,
+        outcome: &Outcome,
+        message: Option<Message>,
+    ) -> Result<(), OutputError> {
+        self.messages.extend(message);
+        let written = match outcome {
+            Outcome::AssemblyFailed(text) | Outcome::IntegrationFailed(text) => {
+                self.writer.error(text)
+            }
+            _ => Ok(()),
+        };
+        self.check(written)
     }
 
     /// The messages that the run itself gave reason for.
@@ -199,17 +210,20 @@ impl<'p, W: Write> Journal<'p, W> {
     /// Head of a simulation.
     pub(crate) fn begin(
         &mut self,
+        kind: DataKind,
         settings: &Settings,
         notes: &[String],
         start: f64,
     ) -> Result<(), OutputError> {
+        let analysis = match kind {
+            DataKind::Kinematic => "Kinematic",
+            _ => "Dynamic",
+        };
         let name = match settings.formulation {
             Formulation::I3 => "BDF I3",
             Formulation::Si2 => "BDF SI2",
         };
-        let written = self
-            .writer
-            .begin_simulation("Dynamic", name, settings.error);
+        let written = self.writer.begin_simulation(analysis, name, settings.error);
         self.check(written)?;
         for note in notes {
             self.note(note)?;
@@ -342,21 +356,20 @@ impl<'p, W: Write> Journal<'p, W> {
         Ok(())
     }
 
-    /// The end: what failed and the timing.
+    /// The end: what failed that has not been told, and the timing.
     pub(crate) fn finish(
         &mut self,
+        completed: bool,
         failure: Option<&str>,
         elapsed: f64,
     ) -> Result<(), OutputError> {
         let processor = processor_time().zip(self.processor);
         let cpu = processor.map_or(elapsed, |(now, start)| now - start);
-        let written = match failure {
-            Some(text) => self
-                .writer
-                .error(text)
-                .and_then(|()| self.writer.timing(elapsed, cpu)),
-            None => self.writer.finish(elapsed, cpu),
-        };
+        let told = failure.map_or(Ok(()), |text| self.writer.error(text));
+        let written = told.and_then(|()| match completed {
+            true => self.writer.finish(elapsed, cpu),
+            false => self.writer.timing(elapsed, cpu),
+        });
         self.check(written)
     }
 }

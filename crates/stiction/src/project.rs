@@ -105,10 +105,6 @@ impl Project {
         &self.commands
     }
 
-    pub(crate) fn source(&self, place: usize) -> &Source {
-        &self.sources[place]
-    }
-
     pub(crate) fn model_source(&self) -> &Source {
         &self.sources[self.model]
     }

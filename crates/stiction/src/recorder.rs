@@ -66,9 +66,13 @@ impl<W: Write> Recorder<W> {
             .map_err(|error| self.res_error(&error))
     }
 
-    /// Begins the rows of a dynamic simulation that starts at this instant.
-    pub(crate) fn begin_dynamic(&mut self, snapshot: &Snapshot<'_>) -> Result<(), OutputError> {
-        self.begin(DataKind::Dynamic)?;
+    /// Begins the rows of a dynamic or kinematic simulation that starts at this instant.
+    pub(crate) fn begin_motion(
+        &mut self,
+        kind: DataKind,
+        snapshot: &Snapshot<'_>,
+    ) -> Result<(), OutputError> {
+        self.begin(kind)?;
         self.account.begin(&Wrenches::new(snapshot));
         Ok(())
     }

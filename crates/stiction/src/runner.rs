@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use dataset::{Change, ChangeKind, Code, CommandKind, Dataset, Simulate, SimulationKind};
 use mechanics::{Assembly, AssemblyError, Ending, Simulation};
-use results::{Header, MessageWriter, ReqWriter, ResWriter};
+use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
 
 use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row, unit_names};
@@ -61,8 +61,11 @@ pub(crate) enum Recorded {
 
 /// Reasons for the commands to end early.
 pub(crate) enum Halt {
+    /// The run ends here.
     Ended(Outcome),
-    Failed(fn(String) -> Outcome, Box<Message>),
+    /// A simulation or LINEAR has failed; whether the run goes on is for PREFERENCES/SIMFAIL to say.
+    Failed(Outcome, Option<Box<Message>>),
+    /// A file cannot be written.
     Output(OutputError),
 }
 
@@ -80,7 +83,8 @@ impl Halt {
 
     /// A failure with its place.
     pub(crate) fn located(outcome: fn(String) -> Outcome, message: &Message) -> Self {
-        Self::Failed(outcome, Box::new(message.clone()))
+        let text = message.to_string().trim_end().to_owned();
+        Self::Failed(outcome(text), Some(Box::new(message.clone())))
     }
 
     /// What an event does to the run after the simulation that it has ended.
@@ -95,7 +99,7 @@ impl Halt {
     pub(crate) fn of_row(outcome: fn(String) -> Outcome, stop: Stop) -> Self {
         match stop {
             Stop::Output(error) => Self::Output(error),
-            Stop::NotFinite(text) => Self::Ended(outcome(format!("error: {text}"))),
+            Stop::NotFinite(text) => Self::Failed(outcome(format!("error: {text}")), None),
         }
     }
 }
@@ -178,12 +182,14 @@ impl<'a> Runner<'a> {
         if project.is_dataset_alone() {
             self.log_model()?;
         }
+        // The first failure is how the run ends.
+        let mut failed = None;
         for step in project.steps() {
             self.log.command(&step.command.echo)?;
             let done = match &step.command.kind {
                 CommandKind::Model { .. } => self.log_model().map_err(Halt::from),
                 CommandKind::Change(change) => self.change(change, step),
-                CommandKind::Simulate(simulate) => self.simulate(simulate, step, watch),
+                CommandKind::Simulate(simulate) => self.simulate(simulate, watch),
                 CommandKind::Eigensolution(asked) => self.eigensolution(asked),
                 // The commands of the file follow.
                 CommandKind::CommandFile { .. } => Ok(()),
@@ -191,16 +197,30 @@ impl<'a> Runner<'a> {
             };
             match done {
                 Ok(()) => {}
+                Err(Halt::Ended(Outcome::Completed)) => break,
                 Err(Halt::Ended(outcome)) => return Ok(outcome),
                 Err(Halt::Failed(outcome, message)) => {
-                    let text = message.to_string().trim_end().to_owned();
-                    self.log.keep(*message);
-                    return Ok(outcome(text));
+                    self.log.failed(&outcome, message.map(|message| *message))?;
+                    failed.get_or_insert(outcome);
+                    if self.stops_on_failure() {
+                        break;
+                    }
+                    self.log
+                        .note("the run goes on with the next command (PREFERENCES/SIMFAIL)")?;
                 }
                 Err(Halt::Output(error)) => return Err(error),
             }
         }
-        Ok(Outcome::Completed)
+        Ok(failed.unwrap_or(Outcome::Completed))
+    }
+
+    /// PREFERENCES/SIMFAIL: whether a simulation that fails ends the run. As in Adams it does not by
+    /// default.
+    fn stops_on_failure(&self) -> bool {
+        let preferences = self.dataset.preferences.as_ref();
+        preferences
+            .and_then(|preferences| preferences.stop_on_failure)
+            .unwrap_or(false)
     }
 
     /// Title, size of the model, defaults in use and warnings.
@@ -233,22 +253,8 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn simulate(
-        &mut self,
-        simulate: &Simulate,
-        step: &SourcedCommand,
-        watch: &mut dyn Watch,
-    ) -> Result<(), Halt> {
+    fn simulate(&mut self, simulate: &Simulate, watch: &mut dyn Watch) -> Result<(), Halt> {
         use SimulationKind as K;
-        let keyword = simulate.kind.keyword();
-        if simulate.kind == K::Settle {
-            let source = self.session.project.source(step.source);
-            let (line, column) = source.line_column(step.command.span.start);
-            return Err(Halt::refused(&format!(
-                "{}:{line}:{column}: SIMULATE/{keyword} is not simulated yet; the run ends here",
-                source.name()
-            )));
-        }
         let start = self.simulation.state().time;
         let span = settings::span(simulate, start).map_err(|text| Halt::refused(&text))?;
         let mode = match (simulate.kind, span) {
@@ -262,20 +268,23 @@ impl<'a> Runner<'a> {
         }
         self.record_start()?;
         let freedoms = self.simulation.system().degrees_of_freedom();
-        match (simulate.kind, freedoms) {
+        let kind = match (simulate.kind, freedoms) {
             (K::InitialConditions, _) => return Ok(()),
-            (K::Kinematic | K::Transient, 0) => {
-                self.log.note("there are no degrees of freedom: the motion follows from the joints and motions; it is run as a dynamic simulation")?;
+            (K::Kinematic | K::Transient, 0) => DataKind::Kinematic,
+            (K::Kinematic, _) => {
+                self.log.warning(
+                    Code::NotKinematic,
+                    None,
+                    format!(
+                        "SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"
+                    ),
+                )?;
+                DataKind::Dynamic
             }
-            (K::Kinematic, _) => self.log.warning(
-                Code::NotKinematic,
-                None,
-                format!("SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"),
-            )?,
-            _ => {}
-        }
+            _ => DataKind::Dynamic,
+        };
         let span = span.ok_or_else(|| Halt::refused("SIMULATE needs END or DURATION"))?;
-        self.dynamic(span, watch)
+        self.motion(kind, span, watch)
     }
 
     /// Takes over changes of the model and assembles it where it is not.
@@ -361,18 +370,32 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn dynamic(&mut self, span: TimeSpan, watch: &mut dyn Watch) -> Result<(), Halt> {
+    /// A dynamic or kinematic simulation. Without freedoms positions, velocities, accelerations and
+    /// reactions at the outputs follow from the constraints there; what has a past (motions that
+    /// prescribe velocities, creep, differential states) is integrated alike.
+    fn motion(
+        &mut self,
+        kind: DataKind,
+        span: TimeSpan,
+        watch: &mut dyn Watch,
+    ) -> Result<(), Halt> {
         let start = self.simulation.state().time;
         let integrator = self.dataset.integrator.as_ref();
+        let kinematics = match kind {
+            DataKind::Kinematic => self.dataset.kinematics.as_ref(),
+            _ => None,
+        };
         let choice = settings::choose(
             integrator,
+            kinematics,
             span.step,
             self.options.error,
             second(&self.dataset),
         );
         let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
-        self.log.begin(&choice.settings, &notes, start)?;
-        self.recorder.begin_dynamic(&self.simulation.snapshot())?;
+        self.log.begin(kind, &choice.settings, &notes, start)?;
+        self.recorder
+            .begin_motion(kind, &self.simulation.snapshot())?;
         let (end, times) = (span.end, span.outputs(start));
         let rows = Observe {
             recorder: &mut self.recorder,
@@ -420,14 +443,16 @@ impl<'a> Runner<'a> {
             Outcome::Completed => ("Successful", None),
             Outcome::Interrupted => ("Interrupted", Some("interrupted; results so far are kept")),
             Outcome::Refused(text) => ("Not simulated", Some(text.as_str())),
-            Outcome::AssemblyFailed(text) => ("Assembly failed", Some(text.as_str())),
-            Outcome::IntegrationFailed(text) => ("Integration failed", Some(text.as_str())),
+            // What has failed has been told.
+            Outcome::AssemblyFailed(_) => ("Assembly failed", None),
+            Outcome::IntegrationFailed(_) => ("Integration failed", None),
         };
         self.log.frictions(&self.recorder.frictions)?;
         if let Some(balance) = self.recorder.account.balance() {
             self.log.balance(balance)?;
         }
-        self.log.finish(text, elapsed)?;
+        let completed = outcome == Outcome::Completed;
+        self.log.finish(completed, text, elapsed)?;
         let Recorder {
             res,
             frictions,

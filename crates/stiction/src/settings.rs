@@ -1,7 +1,7 @@
 //! INTEGRATOR, EQUILIBRIUM and SIMULATE to settings and output times; what is not honoured is
 //! listed.
 
-use dataset::{Equilibrium, IndexReduction, Integrator, IntegratorMethod, Simulate};
+use dataset::{Equilibrium, IndexReduction, Integrator, IntegratorMethod, Kinematics, Simulate};
 use mechanics::{EquilibriumSettings, Formulation, Settings};
 
 /// Error tolerance without an INTEGRATOR statement.
@@ -23,13 +23,15 @@ pub(crate) struct Choice {
     pub(crate) notes: Vec<String>,
 }
 
-/// Settings of a simulation with outputs every `output_step`; `error` overrides the tolerance.
+/// Settings of a simulation with outputs every `output_step`; `error` overrides the tolerance, and
+/// HMAX of `kinematics`, where it is kinematic, limits the step, too.
 ///
 /// Defaults are those of Adams (I3, error 1e-3, HMAX of one output step, KMAX 6, MAXIT 10), except
 /// that without any INTEGRATOR statement it is SI2 with error 1e-6, and that HMIN is a nanosecond
 /// where 1e-6 HMAX is longer. `second` is one second in the unit of time.
 pub(crate) fn choose(
     integrator: Option<&Integrator>,
+    kinematics: Option<&Kinematics>,
     output_step: f64,
     error: Option<f64>,
     second: f64,
@@ -69,6 +71,9 @@ pub(crate) fn choose(
         notes.push(format!("KMAX={kmax}: the highest order is {HIGHEST_ORDER}"));
     }
     let longest_step = given.hmax.unwrap_or(output_step);
+    let longest_step = kinematics
+        .and_then(|kinematics| kinematics.hmax)
+        .map_or(longest_step, |hmax| hmax.min(longest_step));
     notes.extend(not_honoured(
         "INTEGRATOR",
         &[
@@ -239,7 +244,7 @@ mod tests {
 
     #[test]
     fn settings_follow_the_statement_and_its_defaults() {
-        let own = choose(None, 0.01, None, 1.0);
+        let own = choose(None, None, 0.01, None, 1.0);
         assert_eq!(own.settings.formulation, Formulation::Si2);
         assert_eq!(own.settings.error, 1e-6);
         assert_eq!(own.settings.longest_step, 0.01);
@@ -251,14 +256,16 @@ mod tests {
             pattern: Some(vec![true]),
             ..Integrator::default()
         };
-        let chosen = choose(Some(&given), 0.01, None, 1.0);
+        let chosen = choose(Some(&given), None, 0.01, None, 1.0);
         assert_eq!(chosen.settings.formulation, Formulation::I3);
         assert_eq!(chosen.settings.error, 1e-5);
         assert_eq!(chosen.settings.highest_order, 5);
         assert_eq!(chosen.settings.shortest_step, 1e-9);
         assert_eq!(chosen.notes.len(), 3);
         assert_eq!(
-            choose(Some(&given), 0.01, Some(1e-4), 1.0).settings.error,
+            choose(Some(&given), None, 0.01, Some(1e-4), 1.0)
+                .settings
+                .error,
             1e-4
         );
     }

@@ -271,6 +271,13 @@ const COMMANDS: &[Rule] = &[
         change::integrator,
     ),
     read(
+        "PREFERENCES",
+        "PREF",
+        false,
+        change::PREFERENCES_KEYWORDS,
+        change::preferences,
+    ),
+    read(
         "ACCGRAV",
         "ACC",
         false,
@@ -307,7 +314,6 @@ const COMMANDS: &[Rule] = &[
     ignored("LSOLVER", "stiction has one linear solver"),
     ignored("MENU", ASKS),
     ignored("OUTPUT", REPORTS),
-    ignored("PREFERENCES", "a simulation that fails ends the run"),
     ignored("REQUEST", REPORTS),
     ignored("RESULTS", REPORTS),
     ignored("SHOW", ASKS),
@@ -346,23 +352,25 @@ fn file(reading: &mut Reading) -> Option<CommandKind> {
     })
 }
 
-const ALL_LEVELS: &str = "positions, velocities and accelerations are solved together";
+const SETTLE: &str = "what it does is not documented; use STATIC, or DYNAMIC with damping";
+/// Levels of an analysis of initial conditions.
+const LEVELS: [&str; 3] = ["DISPLACEMENT", "VELOCITY", "ACCELERATION"];
 
 const SIMULATE_KEYWORDS: &[Keyword] = &[
     abbreviated("DYNAMICS", "DY", Kind::Flag),
     abbreviated("INITIAL_CONDITIONS", "I", Kind::Flag),
     abbreviated("KINEMATICS", "K", Kind::Flag),
     abbreviated("QUASISTATICS", "Q", Kind::Flag),
-    keyword("SETTLE", Kind::Flag),
+    keyword("SETTLE", Kind::Unsupported(SETTLE)),
     abbreviated("STATICS", "STA", Kind::Flag),
     abbreviated("TRANSIENT", "T", Kind::Flag),
     abbreviated("END", "E", Kind::Real),
     abbreviated("DURATION", "DU", Kind::Real),
     abbreviated("STEPS", "STE", Kind::Integer),
     abbreviated("DTOUT", "DT", Kind::Real),
-    keyword("DISPLACEMENT", Kind::Unsupported(ALL_LEVELS)),
-    keyword("VELOCITY", Kind::Unsupported(ALL_LEVELS)),
-    keyword("ACCELERATION", Kind::Unsupported(ALL_LEVELS)),
+    abbreviated("DISPLACEMENT", "DI", Kind::Flag),
+    abbreviated("VELOCITY", "V", Kind::Flag),
+    abbreviated("ACCELERATION", "A", Kind::Flag),
 ];
 
 fn simulate(reading: &mut Reading) -> Option<CommandKind> {
@@ -371,11 +379,29 @@ fn simulate(reading: &mut Reading) -> Option<CommandKind> {
         ("INITIAL_CONDITIONS", SimulationKind::InitialConditions),
         ("KINEMATICS", SimulationKind::Kinematic),
         ("QUASISTATICS", SimulationKind::QuasiStatic),
-        ("SETTLE", SimulationKind::Settle),
         ("STATICS", SimulationKind::Static),
         ("TRANSIENT", SimulationKind::Transient),
     ];
+    if reading.has("SETTLE") {
+        // This has been reported.
+        return None;
+    }
     let kind = reading.required_flag("an analysis", &kinds)?;
+    for level in LEVELS {
+        if !reading.has(level) {
+            continue;
+        }
+        let span = reading.place(level);
+        if kind == SimulationKind::InitialConditions {
+            let message = "positions, velocities and accelerations are solved together";
+            reading.diagnostics.warning(Code::Ignored, span, message);
+        } else {
+            let message = format!("{level} is for SIMULATE/INITIAL_CONDITIONS");
+            reading
+                .diagnostics
+                .error(Code::ConflictingArguments, span, message);
+        }
+    }
     reading.exclude("END", &["DURATION"]);
     reading.exclude("STEPS", &["DTOUT"]);
     let needs_end = matches!(

@@ -2,7 +2,7 @@
 
 use super::{
     Activity, Effect, Equilibrium, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta,
-    Switchable,
+    Preferences, Switchable,
 };
 use crate::expression::Expression;
 use crate::source::Span;
@@ -63,8 +63,6 @@ pub enum SimulationKind {
     Kinematic,
     /// TRANSIENT: kinematic without freedoms, else dynamic.
     Transient,
-    /// SETTLE.
-    Settle,
     /// `INITIAL_CONDITIONS`: assembly only.
     InitialConditions,
 }
@@ -79,7 +77,6 @@ impl SimulationKind {
             Self::QuasiStatic => "QUASISTATIC",
             Self::Kinematic => "KINEMATIC",
             Self::Transient => "TRANSIENT",
-            Self::Settle => "SETTLE",
             Self::InitialConditions => "INITIAL_CONDITIONS",
         }
     }
@@ -172,6 +169,8 @@ pub enum ChangeKind {
     Integrator(Box<Integrator>),
     /// EQUILIBRIUM.
     Equilibrium(Box<Equilibrium>),
+    /// PREFERENCES.
+    Preferences(Preferences),
     /// ACTIVATE or DEACTIVATE.
     Activity(Activity),
     /// ACCGRAV: components in the ground frame.

@@ -21,7 +21,10 @@ pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
 pub(crate) use friction::arguments as friction_arguments;
 pub(crate) use motion::KEYWORDS as MOTION_KEYWORDS;
-pub(crate) use settings::{EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, equilibrium, integrator};
+pub(crate) use settings::{
+    EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, PREFERENCES_KEYWORDS, equilibrium, integrator,
+    preferences,
+};
 pub(crate) use table::{Action, STATEMENTS};
 pub(crate) use units::{GRAVITY_KEYWORDS, gravity};
 pub(crate) use variable::KEYWORDS as VARIABLE_KEYWORDS;

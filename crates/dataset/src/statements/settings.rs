@@ -215,7 +215,7 @@ pub(super) fn initial_conditions(reading: &mut Reading, builder: &mut Builder) {
 const NO_CONTACT: &str = "contacts are not simulated";
 const RIGID: &str = "parts are rigid";
 
-pub(super) const PREFERENCES_KEYWORDS: &[Keyword] = &[
+pub(crate) const PREFERENCES_KEYWORDS: &[Keyword] = &[
     keyword("SIMFAIL", Kind::Word),
     keyword("CONTACT_FACETING_TOLERANCE", Kind::Ignored(NO_CONTACT)),
     keyword("CONTACT_GEOMETRY_LIBRARY", Kind::Ignored(NO_CONTACT)),
@@ -231,11 +231,16 @@ pub(super) const PREFERENCES_KEYWORDS: &[Keyword] = &[
     keyword("LIST_STATUS", Kind::Ignored("stiction prints no listing")),
 ];
 
-/// PREFERENCES.
-pub(super) fn preferences(reading: &mut Reading, builder: &mut Builder) {
+/// PREFERENCES, as a statement or a command.
+pub(crate) fn preferences(reading: &mut Reading) -> Preferences {
     let choices = [("STOPCF", true), ("NOSTOPCF", false)];
-    builder.dataset.preferences = Some(Preferences {
+    Preferences {
         stop_on_failure: reading.choice("SIMFAIL", &choices),
         span: reading.span,
-    });
+    }
+}
+
+/// PREFERENCES.
+pub(super) fn preferences_statement(reading: &mut Reading, builder: &mut Builder) {
+    builder.dataset.preferences = Some(preferences(reading));
 }

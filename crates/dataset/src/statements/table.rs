@@ -188,7 +188,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         "PREFERENCES",
         "PREF",
         settings::PREFERENCES_KEYWORDS,
-        settings::preferences,
+        settings::preferences_statement,
     ),
     ignored("ARRAY", DATA),
     ignored("CURVE", DATA),

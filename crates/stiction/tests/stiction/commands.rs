@@ -167,3 +167,86 @@ END
     assert!(log.contains("E I G E N V A L U E S  at time = 0.00000E+00"));
     assert!(log.contains("shape of mode 1"), "{log}");
 }
+
+/// A crank that turns by a function of time: nothing is left to integrate, and the positions at the
+/// outputs are exact whatever the tolerance of the integrator.
+const CRANK: &str = "A driven crank
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2, QP=0.5, 0, 0
+MARKER/21, PART=2
+JOINT/1, REVOLUTE, I=21, J=1
+MOTION/1, JOINT=1, ROTATION, FUNCTION=3*TIME**2
+INTEGRATOR/GSTIFF, ERROR=1E-2
+END
+";
+
+#[test]
+fn without_freedoms_a_simulation_is_kinematic() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("crank-input");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("crank.adm"), CRANK).unwrap();
+    let commands = "\nFILE/MODEL=crank\nSIM/KIN, END=1, STEPS=5\nSIM/TRA, DUR=1, STEPS=5\n\
+                    SIM/DYN, END=3, STEPS=2\nDEACTIVATE/MOTION, ID=1\n\
+                    SIM/KIN, END=3.1, STEPS=2\n";
+    let file = folder.join("kinematic.acf");
+    std::fs::write(&file, commands).unwrap();
+    let (report, results, log) =
+        run_with_log(&Project::load(&file).unwrap(), RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed);
+    for (block, times) in [
+        ("kinematic_001", [0.2, 0.4, 1.0]),
+        ("kinematic_002", [1.2, 1.4, 2.0]),
+    ] {
+        let block = results.block(block).unwrap();
+        let angle = results.column("PART_2_XFORM.PSI").unwrap();
+        let torque = results.column("MOTION_1.TZ").unwrap();
+        for (row, time) in [0, 1, 4].into_iter().zip(times) {
+            assert!((block.times[row] - time).abs() < 1e-12);
+            let q: f64 = 3.0 * time * time;
+            let turned = block.column(angle).nth(row).unwrap();
+            let off = (turned - q).rem_euclid(std::f64::consts::TAU);
+            // Projected onto the constraints: rounding of angles of several turns.
+            assert!(off.min(std::f64::consts::TAU - off) < 1e-11, "{turned} {q}");
+            // (I + m a^2) 6 + m g a cos q
+            let expected = 1.5 * 6.0 + 2.0 * 9.81 * 0.5 * q.cos();
+            let found = block.column(torque).nth(row).unwrap();
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
+    }
+    assert!(results.block("dynamic_001").is_some() && results.block("dynamic_002").is_some());
+    assert!(log.contains("Performing Kinematic Simulation"), "{log}");
+    assert!(
+        log.contains("with 1 degrees of freedom goes on as dynamic"),
+        "{log}"
+    );
+}
+
+/// A model that cannot go on beyond one second, and commands behind the one that fails.
+#[test]
+fn a_failed_simulation_ends_the_run_only_where_it_shall() {
+    let commands = "
+FILE/MODEL=slider
+SIMULATE/DYNAMIC, END=1, STEPS=4
+VARIABLE/1, FUNCTION=SQRT(1.5-TIME)
+SIMULATE/DYNAMIC, END=2, STEPS=4
+VARIABLE/1, FUNCTION=0
+SIMULATE/DYNAMIC, END=3, STEPS=4
+";
+    let project = Project::load(&with_commands("goeson", commands)).unwrap();
+    let (report, results, log) = run_with_log(&project, RunOptions::default());
+    assert!(matches!(report.outcome, Outcome::IntegrationFailed(_)));
+    assert_eq!((report.simulations, report.time), (2, 3.0));
+    assert_eq!(log.matches("START: ERROR").count(), 1, "{log}");
+    assert!(!log.contains("Finished -----"));
+    assert_eq!(results.block("dynamic_002").unwrap().times, [1.25]);
+    assert_eq!(results.status.as_deref(), Some("Integration failed"));
+    let stopping = commands.replacen("VARIABLE", "PREF/SIMFAIL=STOPCF\nVARIABLE", 1);
+    let project = Project::load(&with_commands("stops", &stopping)).unwrap();
+    let (report, results) = run(&project, RunOptions::default());
+    assert!(matches!(report.outcome, Outcome::IntegrationFailed(_)));
+    assert_eq!(report.simulations, 1);
+    assert!(results.block("dynamic_003").is_none());
+}
