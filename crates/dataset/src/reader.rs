@@ -7,7 +7,7 @@ use crate::model::Dataset;
 use crate::names::{self, Match, Name};
 use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
-use crate::statements::{Action, Builder, STATEMENTS};
+use crate::statements::{Action, Builder, STATEMENTS, name_freedoms};
 use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items};
 
 /// Reads a dataset (`.adm`).
@@ -80,6 +80,7 @@ fn read(
         items(&tree, statement, &mut buffer);
         read_statement(&tree, statement, &buffer, &mut builder, &mut diagnostics);
     }
+    name_freedoms(&mut builder, &mut diagnostics);
     checks::model(&builder, &mut diagnostics);
     look_through(&builder, &mut diagnostics);
     (builder.dataset, diagnostics.finish())

@@ -20,7 +20,7 @@ mod vector_force;
 pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
 pub(crate) use friction::arguments as friction_arguments;
-pub(crate) use motion::KEYWORDS as MOTION_KEYWORDS;
+pub(crate) use motion::{KEYWORDS as MOTION_KEYWORDS, name_freedoms};
 pub(crate) use settings::{
     EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, PREFERENCES_KEYWORDS, equilibrium, integrator,
     preferences,
@@ -97,6 +97,8 @@ pub(crate) struct Builder {
     pub(crate) gravity: Option<Span>,
     /// The part before the statement, which owns markers that name no part.
     pub(crate) last_part: Option<u32>,
+    /// Motions of joints that do not say whether they turn or slide: identifier and head.
+    pub(crate) unnamed_freedoms: Vec<(u32, Span)>,
     /// Statements without identifier seen so far.
     pub(crate) singles: Vec<&'static str>,
 }

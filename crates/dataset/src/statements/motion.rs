@@ -2,9 +2,9 @@
 
 use super::{Builder, Target, add};
 use crate::checks::angles;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostics};
 use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
-use crate::model::{Motion, MotionDirection, MotionLevel, MotionTarget};
+use crate::model::{JointKind, Motion, MotionDirection, MotionLevel, MotionTarget};
 use crate::reading::Reading;
 
 pub(crate) const KEYWORDS: &[Keyword] = &[
@@ -44,9 +44,13 @@ pub(super) fn motion(reading: &mut Reading, builder: &mut Builder) {
         reading.exclude("JOINT", &["I", "J", "X", "Y", "Z", "B1", "B2", "B3"]);
         let joint = builder.require(reading, "JOINT", Target::Joint);
         let flags = [("ROTATIONAL", true), ("TRANSLATIONAL", false)];
-        match reading.required_flag("ROTATIONAL or TRANSLATIONAL", &flags) {
+        match reading.one_flag(&flags) {
             Some(false) => MotionTarget::JointTranslation(joint),
-            _ => MotionTarget::JointRotation(joint),
+            Some(true) => MotionTarget::JointRotation(joint),
+            None => {
+                builder.unnamed_freedoms.push((reading.id, reading.head));
+                MotionTarget::JointRotation(joint)
+            }
         }
     } else {
         for keyword in ["ROTATIONAL", "TRANSLATIONAL"] {
@@ -108,5 +112,29 @@ const fn turns(target: MotionTarget) -> bool {
         MotionTarget::JointRotation(_) => true,
         MotionTarget::JointTranslation(_) => false,
         MotionTarget::Markers { direction, .. } => matches!(direction, D::B1 | D::B2 | D::B3),
+    }
+}
+
+/// Gives motions of joints that name no freedom the one that their joint has: only a cylindrical
+/// joint has two (Adams Solver, MOTION: ROTATION).
+pub(crate) fn name_freedoms(builder: &mut Builder, diagnostics: &mut Diagnostics) {
+    for (id, head) in std::mem::take(&mut builder.unnamed_freedoms) {
+        let model = &mut builder.dataset;
+        let Some(motion) = model.motions.by_id_mut(id) else {
+            continue;
+        };
+        let MotionTarget::JointRotation(joint) = motion.target else {
+            continue;
+        };
+        match model.joints.by_id(joint).map(|joint| joint.kind) {
+            Some(JointKind::Translational) => motion.target = MotionTarget::JointTranslation(joint),
+            Some(JointKind::Cylindrical) => {
+                let message = format!("MOTION/{id} needs ROTATIONAL or TRANSLATIONAL");
+                diagnostics
+                    .error(Code::MissingArgument, head, message)
+                    .help("a CYLINDRICAL joint both turns and slides");
+            }
+            _ => {}
+        }
     }
 }

@@ -121,6 +121,15 @@ MOTION/1
         assert_eq!(model.motions[0].target, MotionTarget::JointRotation(1));
         assert_eq!(model.motions[0].ic_displacement, Some(45.0_f64.to_radians()));
     }),
+    read("by hand, motions that only name their joint", "
+MOTION/1, JOINT = 2, FUNCTION = TIME
+MOTION/2, JOINT = 1, FUNCTION = 10D*TIME
+JOINT/1, REVOLUTE, I = 20, J = 1
+JOINT/2, TRANSLATIONAL, I = 21, J = 2
+", |model| {
+        assert_eq!(model.motions[0].target, MotionTarget::JointTranslation(2));
+        assert_eq!(model.motions[1].target, MotionTarget::JointRotation(1));
+    }),
     read("View, spring of a line of sight", "
 SFORCE/1
 , TRANSLATIONAL
@@ -527,12 +536,12 @@ MADATA/STATISTICS
 GSTIFF/ERROR = 1E-4, KMAX = 6
 INTEGRATOR/GSTIFF, RECONCILE = ALL, REPARTITION_THRESHOLD = 1E-3
 FIELD/3, I=21, J=2, FORMULATION=LINEAR
-REQUEST/1, ACCELERATION, I=20, J=1, COMMENTS = crank
+REQUEST/1, ACCELERATION, I=20, J=1, COMMENTS = crank, and rod
 SPRINGDAMPER/2, ROTATION, I=21, J=2, KT=1.0E+03, CT=2.0, ANGLE=90.0D, TORQUE=1
 JPRIM/1, PARALLEL_AXES, I=21, J=2
 ", |model| {
         assert_eq!(model.spring_dampers[0].free_length, FRAC_PI_2);
-        assert_eq!(model.requests.len(), 1);
+        assert_eq!(model.requests[0].comment.as_deref(), Some("crank, and rod"));
     }),
     read("View of 2023, end with a remark behind", "
 COUPLER/1, JOINTS = 1, 2, TYPE = ROTATIONAL:TRANSLATIONAL, SCALES = 1, -0.5
