@@ -32,6 +32,7 @@ pub(crate) const KEYWORDS: &[Keyword] = &[
     abbreviated("SENSOR", "SE", Kind::Flag),
     abbreviated("VARIABLE", "VAR", Kind::Unsupported(NOT_HERE)),
     abbreviated("REQUEST", "REQ", Kind::Unsupported(NOT_HERE)),
+    abbreviated("CLEARANCE", "CL", Kind::Unsupported(NOT_HERE)),
     keyword("ADAMS_BUSHING", Kind::Unsupported(NEVER_READ)),
     abbreviated("CONTACT", "CON", Kind::Unsupported(NEVER_READ)),
     keyword("CVCV", Kind::Unsupported(NEVER_READ)),

@@ -67,6 +67,17 @@ impl Parser<'_, '_> {
         names::find(word, self.keywords.iter().map(|keyword| keyword.name))
     }
 
+    /// The only argument that an abbreviation can mean before `=`, or where no `=` follows.
+    fn fitting(&self, word: &str) -> Option<Keyword> {
+        let has_value = self.kind(self.at) == Some(TokenKind::Equals);
+        let fits = |keyword: &&Keyword| has_value != matches!(keyword.kind, Kind::Flag);
+        let candidates = || self.keywords.iter().filter(fits);
+        match names::find(word, candidates().map(|keyword| keyword.name)) {
+            Match::One(place) => candidates().nth(place).copied(),
+            _ => None,
+        }
+    }
+
     fn arguments(&mut self) {
         let mut separated = true;
         while self.at < self.items.len() {
@@ -121,11 +132,14 @@ impl Parser<'_, '_> {
         let keyword = match self.find(&word) {
             Match::One(index) => self.keywords[index],
             Match::Several(fits) => {
-                let message = format!("`{word}` can mean {}", fits.join(" or "));
-                self.diagnostics
-                    .error(Code::AmbiguousName, span, message)
-                    .help("write more letters");
-                return self.skip_value();
+                let Some(keyword) = self.fitting(&word) else {
+                    let message = format!("`{word}` can mean {}", fits.join(" or "));
+                    self.diagnostics
+                        .error(Code::AmbiguousName, span, message)
+                        .help("write more letters");
+                    return self.skip_value();
+                };
+                keyword
             }
             Match::None => {
                 let names = self.keywords.iter().map(|keyword| keyword.name.full);

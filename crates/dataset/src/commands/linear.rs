@@ -26,6 +26,8 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     abbreviated("STRAIN", "STR", Kind::Unsupported(ENERGIES)),
     keyword("PSTATE", Kind::Unsupported(STATES)),
     keyword("FILE", Kind::Unsupported(MATRICES)),
+    keyword("FORMAT", Kind::Unsupported(MATRICES)),
+    keyword("TYPE", Kind::Unsupported(MATRICES)),
     keyword("PINPUT", Kind::Unsupported(MATRICES)),
     keyword("POUTPUT", Kind::Unsupported(MATRICES)),
 ];

@@ -205,6 +205,8 @@ const fn unsupported(full: &'static str) -> Rule {
     }
 }
 
+const DRAWS: &str = "stiction draws no pictures while it runs";
+const INTEGRATOR: &str = "write its arguments in INTEGRATOR";
 const ASKS: &str = "it asks a question of an interactive program";
 const REPORTS: &str = "what is reported is set by the dataset";
 const SOLVERS: &str = "stiction has one way to solve initial conditions and kinematics";
@@ -307,7 +309,9 @@ const COMMANDS: &[Rule] = &[
     ),
     ignored("DEBUG", "it asks for diagnostics of another program"),
     ignored("ENVIRONMENT", "stiction reads no environment variables"),
+    ignored("GSTIFF", INTEGRATOR),
     ignored("HELP", ASKS),
+    ignored("HOTLINE", ASKS),
     ignored("IC", SOLVERS),
     ignored("INFO", ASKS),
     ignored("KINEMATICS", SOLVERS),
@@ -318,6 +322,22 @@ const COMMANDS: &[Rule] = &[
     ignored("RESULTS", REPORTS),
     ignored("SHOW", ASKS),
     ignored("TIME", ASKS),
+    ignored("WSTIFF", INTEGRATOR),
+    // What the old Fortran solver drew with (Adams Solver C++, frequent questions).
+    ignored("ACENTER", DRAWS),
+    ignored("AINIT", DRAWS),
+    ignored("AUTOSCALE", DRAWS),
+    ignored("BACKUP", DRAWS),
+    ignored("CENTER", DRAWS),
+    ignored("CLEAR", DRAWS),
+    ignored("DISPLAY", DRAWS),
+    ignored("DRAW", DRAWS),
+    ignored("DT", DRAWS),
+    ignored("ERASE", DRAWS),
+    ignored("EXECUTION", DRAWS),
+    ignored("PLOT", DRAWS),
+    ignored("RETURN", DRAWS),
+    ignored("SET", DRAWS),
     unsupported("CONTROL"),
     unsupported("RELOAD"),
     unsupported("SAVE"),

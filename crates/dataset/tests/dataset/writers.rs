@@ -2,8 +2,8 @@
 //! simulated is refused by its name.
 
 use dataset::{
-    Code, Corrector, Dataset, Expr, Function, IntegratorMethod, MotionLevel, MotionTarget,
-    Orientation, RequestKind, Severity, Source, read_dataset,
+    Code, Corrector, Dataset, Diagnostic, Expr, Function, IntegratorMethod, MotionLevel,
+    MotionTarget, Orientation, RequestKind, Severity, Source, read_commands, read_dataset,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -559,30 +559,123 @@ MARKER/2147483646, PART = 2147483647
 ", |model| assert!(model.parts.by_id(2_147_483_647).is_some())),
 ];
 
+/// The errors among `diagnostics` but the refusals of these words.
+fn wrong(writer: &str, source: &Source, diagnostics: &[Diagnostic], refused: &[&str]) -> String {
+    let is_wrong = |found: &&Diagnostic| {
+        let unsupported = matches!(
+            found.code,
+            Code::UnsupportedArgument | Code::UnsupportedFunction | Code::UnsupportedStatement
+        );
+        let named = refused.iter().any(|word| found.message.contains(word));
+        found.severity == Severity::Error && !(unsupported && named)
+    };
+    let errors = diagnostics.iter().filter(is_wrong);
+    errors
+        .map(|found| format!("{writer}:\n{}", found.render(source)))
+        .collect()
+}
+
 #[test]
 fn no_word_of_a_writer_is_unknown() {
-    let mut wrong = String::new();
+    let mut all = String::new();
     for snippet in SNIPPETS {
         let text = format!("{}{BASE}{}", snippet.writer, snippet.text);
         let source = Source::from_text("writer.adm", text);
         let (model, diagnostics) = read_dataset(&source);
-        let before = wrong.len();
-        for found in &diagnostics {
-            let unsupported = matches!(
-                found.code,
-                Code::UnsupportedArgument | Code::UnsupportedFunction | Code::UnsupportedStatement
-            );
-            let named = snippet
-                .refused
-                .iter()
-                .any(|word| found.message.contains(word));
-            if found.severity == Severity::Error && !(unsupported && named) {
-                wrong += &format!("{}:\n{}", snippet.writer, found.render(&source));
-            }
-        }
-        if wrong.len() == before {
+        let wrong = wrong(snippet.writer, &source, &diagnostics, snippet.refused);
+        if wrong.is_empty() {
             (snippet.check)(&model);
         }
+        all += &wrong;
     }
-    assert!(wrong.is_empty(), "{wrong}");
+    assert!(all.is_empty(), "{all}");
+}
+
+/// Command files: the writer, the words whose refusal is allowed, and the text.
+const COMMANDS: &[(&str, &[&str], &str)] = &[
+    (
+        "View",
+        &["SAVE", "RELOAD"],
+        "
+file/model=model_1
+preferences/simfail=nostopcf
+preferences/contact_geometry_library=parasolids, contact_faceting_tolerance=300.0
+output/noseparator
+integrator/hht, error=1.0E-05, alpha=-0.3
+equilibrium/maxit=100, stability=0.5
+ic/error=1e-8
+debug/eprint
+lsolver/umf
+simulate/initial_conditions
+simulate/static
+simulate/dynamic, end=5.0, steps=500
+linear/eigensol, novector
+save/system, file=state_1
+reload/system, file=state_1
+time
+environment/name=X, value=\"1\"
+stop
+",
+    ),
+    (
+        "View, linear models",
+        &[
+            "STATEMAT", "FILE", "PINPUT", "POUTPUT", "PSTATE", "FORMAT", "MKB", "EXPORT", "TYPE",
+        ],
+        "
+file/model=model_1
+simulate/static
+linear/statemat, file=lin, pinput=1, poutput=1, format=matlab, pstate=1
+linear/mkb, file=a
+linear/export, type=nastran, file=b
+",
+    ),
+    (
+        "Car",
+        &["CONTROL", "CLEARANCE", "ADAMS_BUSHING"],
+        "
+! front suspension
+file/model=susp_par
+output/nosep
+control/ routine=abgSDI::EventInit, function=user(3,14,1,0)
+deactivate/sensor, id=5
+activate/sensor, range=5,9
+activate/clearance, id=1
+deactivate/adams_bushing, id=1
+simulate/statics, end=10, dtout=0.1
+sim/quasi, dur=1, st=10
+sim/trans, dur=1, &
+ dtout=0.01
+stop
+",
+    ),
+    (
+        "by hand",
+        &[],
+        "pendulum
+pendulum_out
+OUTPUT/REQSAVE
+SIM/KIN, END=1., ST=100
+SIM/DYN,END=2,DTOUT=.01
+ACCG/KG=0
+WSTIFF/ERROR=1E-4
+HELP
+MENU
+HOTLINE
+DISPLAY/VIEW=1
+RETURN
+",
+    ),
+];
+
+#[test]
+fn no_command_of_a_writer_is_unknown() {
+    let mut all = String::new();
+    for (writer, refused, text) in COMMANDS {
+        let source = Source::from_text("writer.acf", (*text).to_string());
+        let (commands, diagnostics) = read_commands(&source);
+        all += &wrong(writer, &source, &diagnostics, refused);
+        assert!(commands.commands.len() > 1, "{writer}");
+    }
+    assert!(all.is_empty(), "{all}");
 }
