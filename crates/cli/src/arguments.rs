@@ -48,6 +48,13 @@ pub(crate) enum Command {
     /// texts, comments, what follows END, line ends and the encoding stay. A file that cannot be
     /// read is left alone; a file is replaced only when its new text says the same.
     Fmt(FmtArguments),
+    /// Turn a dataset into JSON and back
+    ///
+    /// The JSON form has every statement with full names and typed values, in the order of the
+    /// file. Numbers come back with the same bits: an angle given in degrees is {"degrees": 90}.
+    /// docs/json.md describes the form, docs/model.schema.json is its JSON Schema. A file that is
+    /// there is replaced only with --force.
+    Convert(ConvertArguments),
 }
 
 /// Simulate a model and write its results.
@@ -155,6 +162,27 @@ pub(crate) struct FmtArguments {
     /// Write the text to standard output instead of into the file
     #[arg(long, conflicts_with = "check")]
     pub(crate) stdout: bool,
+}
+
+/// Turn a dataset into JSON and back.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:
+  stiction convert delta.adm -o delta.json
+  stiction convert delta.json -o delta.adm
+  stiction convert delta.adm | jq '.statements[] | select(.statement == \"FRICTION\")'",
+    after_long_help = EXIT_CODES
+)]
+pub(crate) struct ConvertArguments {
+    /// Dataset (.adm) or model in JSON (.json)
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: PathBuf,
+    /// File to write (.json or .adm) [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long, requires = "output")]
+    pub(crate) force: bool,
 }
 
 /// How progress is shown.

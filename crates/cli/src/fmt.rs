@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use dataset::{Language, Source};
+use dataset::Language;
 
 use crate::arguments::FmtArguments;
 use crate::exit::{Exit, complain, say_bytes};
+use crate::file::{Refusal, extension, read};
 use crate::replace::replace;
 
 /// Lays out every file; the gravest of what happened is the answer.
@@ -14,9 +15,9 @@ pub(crate) fn fmt(arguments: &FmtArguments) -> Exit {
     for path in &arguments.files {
         let file = match file(path) {
             Ok(file) => file,
-            Err((text, found)) => {
-                complain(&text);
-                exit = exit.max(found);
+            Err(refusal) => {
+                complain(&refusal.text);
+                exit = exit.max(refusal.exit);
                 continue;
             }
         };
@@ -44,34 +45,21 @@ struct File {
     after: Vec<u8>,
 }
 
-/// Reads a file and lays it out; the text to show where that cannot be done.
-fn file(path: &Path) -> Result<File, (String, Exit)> {
-    let name = path.display().to_string();
-    let extension = path
-        .extension()
-        .map(|extension| extension.to_ascii_lowercase());
-    let language = match extension.as_ref().and_then(|extension| extension.to_str()) {
-        Some("adm") => Language::Dataset,
-        Some("acf") => Language::Commands,
+/// Reads a file and lays it out.
+fn file(path: &Path) -> Result<File, Refusal> {
+    let language = match extension(path).as_str() {
+        "adm" => Language::Dataset,
+        "acf" => Language::Commands,
         _ => {
-            let text =
-                format!("error: {name} is neither a dataset (.adm) nor a command file (.acf)\n");
-            return Err((text, Exit::Usage));
+            let name = path.display();
+            return Err(Refusal::usage(&format!(
+                "{name} is neither a dataset (.adm) nor a command file (.acf)"
+            )));
         }
     };
-    let before = std::fs::read(path).map_err(|error| {
-        (
-            format!("error: {name} cannot be read: {error}\n"),
-            Exit::Usage,
-        )
-    })?;
-    let unplaced = Source::from_text(&name, String::new());
-    let source = Source::from_bytes(&name, &before)
-        .map_err(|error| (error.render(&unplaced), Exit::Input))?;
-    let text = dataset::format(&source, language).map_err(|errors| {
-        let errors: String = errors.iter().map(|error| error.render(&source)).collect();
-        (errors, Exit::Input)
-    })?;
+    let (before, source) = read(path)?;
+    let text =
+        dataset::format(&source, language).map_err(|errors| Refusal::input(&errors, &source))?;
     let after = source.encode(&text);
     Ok(File { before, after })
 }

@@ -2,9 +2,11 @@
 
 mod arguments;
 mod check;
+mod convert;
 mod diagnostics;
 mod exit;
 mod explain;
+mod file;
 mod fmt;
 mod progress;
 mod record;
@@ -22,6 +24,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
+        Command::Convert(arguments) => convert::convert(&arguments),
         Command::Fmt(arguments) => fmt::fmt(&arguments),
     };
     ExitCode::from(status.code())

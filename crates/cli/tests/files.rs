@@ -72,3 +72,34 @@ fn fmt_replaces_what_it_can_read_and_leaves_the_rest_alone() {
     let other = stiction(&folder, &["fmt", "none.adm", "good.txt"]);
     assert_eq!(code(&other), 2, "{}", errors(&other));
 }
+
+#[test]
+fn convert_goes_to_json_and_back() {
+    let model: &[u8] = b"size \xB7\n!\nPART/1\n, GROUND\n!\nMARKER/1\n, PART = 1\n\
+        , REULER = 90D, 0, -1E-300\n!\nEND\n";
+    let folder = folder("convert", &[("m.adm", model)]);
+    let output = stiction(&folder, &["convert", "m.adm", "-o", "m.json"]);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let json: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.join("m.json")).unwrap()).unwrap();
+    assert_eq!(json["title"], "size \u{b7}");
+    assert_eq!(json["statements"][1]["REULER"][0]["degrees"], 90);
+
+    let refused = stiction(&folder, &["convert", "m.json", "-o", "m.adm"]);
+    assert_eq!(code(&refused), 2);
+    assert!(errors(&refused).contains("--force"), "{}", errors(&refused));
+    let back = stiction(&folder, &["convert", "m.json"]);
+    assert_eq!((code(&back), back.stdout.as_slice()), (0, model));
+    let back = stiction(&folder, &["convert", "m.json", "-o", "m.adm", "--force"]);
+    assert_eq!(code(&back), 0);
+    assert_eq!(std::fs::read(folder.join("m.adm")).unwrap(), model);
+
+    std::fs::write(folder.join("bad.json"), "{\n\"format\": 1}").unwrap();
+    let refused = stiction(&folder, &["convert", "bad.json"]);
+    assert_eq!(code(&refused), 3);
+    let said = errors(&refused);
+    assert!(
+        said.contains("bad.json:2:11: error[invalid-value]: expected a string"),
+        "{said}"
+    );
+}

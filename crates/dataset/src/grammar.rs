@@ -50,3 +50,8 @@ fn statement(index: usize) -> Grammar {
         form,
     }
 }
+/// Every statement of a dataset.
+pub(crate) fn statements() -> impl Iterator<Item = (Grammar, bool)> {
+    let identified = |index: usize| STATEMENTS[index].identified;
+    (0..STATEMENTS.len()).map(move |index| (statement(index), identified(index)))
+}

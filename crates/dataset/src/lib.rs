@@ -30,6 +30,7 @@ mod document;
 mod expression;
 mod format;
 mod grammar;
+mod json;
 mod keywords;
 mod lints;
 mod model;
@@ -48,6 +49,7 @@ pub use expression::{
     ArgumentKind, BinaryOperator, DEEPEST, ElementKind, Expr, Expression, Function,
 };
 pub use format::format;
+pub use json::{from_json, json_schema, to_json};
 pub use model::*;
 pub use reader::{lint_dataset, read_dataset};
 pub use source::{LONGEST_SOURCE, Source, Span};

@@ -127,6 +127,16 @@ impl Source {
         }
     }
 
+    /// The bytes for a new file with `text`: Latin-1, as Adams writes it, where that reads back the
+    /// same, else UTF-8.
+    #[must_use]
+    pub fn encode_new(text: &str) -> Vec<u8> {
+        match latin1(text) {
+            Some(bytes) if std::str::from_utf8(&bytes).is_err() => bytes,
+            _ => text.as_bytes().to_vec(),
+        }
+    }
+
     /// The bytes of `text` in the encoding of the file that this source was decoded from.
     ///
     /// ```
@@ -137,16 +147,11 @@ impl Source {
     /// ```
     #[must_use]
     pub fn encode(&self, text: &str) -> Vec<u8> {
-        let latin1 = |character: char| u8::try_from(u32::from(character)).ok();
         match self.encoding {
             Encoding::Utf8 => text.as_bytes().to_vec(),
             Encoding::MarkedUtf8 => [BYTE_ORDER_MARK, text.as_bytes()].concat(),
             // A text with other characters than those of the file is kept as UTF-8.
-            Encoding::Latin1 => text
-                .chars()
-                .map(latin1)
-                .collect::<Option<_>>()
-                .unwrap_or_else(|| text.as_bytes().to_vec()),
+            Encoding::Latin1 => latin1(text).unwrap_or_else(|| text.as_bytes().to_vec()),
         }
     }
 
@@ -204,9 +209,24 @@ impl Source {
         (self.text[start..end].trim_end_matches('\r'), start)
     }
 
+    /// The byte offset of a line and a column, both counted from 1, the column in bytes.
+    pub(crate) fn offset(&self, line: usize, column: usize) -> usize {
+        let line = line.clamp(1, self.line_starts.len());
+        let start = self.line_starts[line - 1] as usize;
+        let end = start.saturating_add(column.saturating_sub(1));
+        self.text.floor_char_boundary(end.min(self.text.len()))
+    }
+
     fn line_of(&self, offset: usize) -> usize {
         self.line_starts
             .partition_point(|start| *start as usize <= offset)
             .saturating_sub(1)
     }
+}
+
+/// The bytes of a text in Latin-1; `None` where it has other characters.
+fn latin1(text: &str) -> Option<Vec<u8>> {
+    text.chars()
+        .map(|character| u8::try_from(u32::from(character)).ok())
+        .collect()
 }

@@ -5,9 +5,11 @@
 
 mod number;
 mod reader;
+mod writer;
 
 pub(crate) use number::Number;
 pub(crate) use reader::read;
+pub(crate) use writer::write;
 
 /// The statements of a dataset or command file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,11 +50,14 @@ pub(crate) enum Body {
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     Flag,
+    Number(Number),
     Numbers(Vec<Number>),
     /// Those of an argument that may be given several times.
     Rows(Vec<Vec<Number>>),
+    Integer(u32),
     Integers(Vec<u32>),
-    /// Names, as written.
+    /// A name, as written.
+    Word(String),
     Words(Vec<String>),
     Text(String),
     Strings(Vec<String>),
@@ -67,11 +72,15 @@ impl PartialEq for Value {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Flag, Self::Flag) => true,
+            (Self::Number(a), Self::Number(b)) => a == b,
             (Self::Numbers(a), Self::Numbers(b)) => a == b,
             (Self::Rows(a), Self::Rows(b)) => a == b,
+            (Self::Integer(a), Self::Integer(b)) => a == b,
             (Self::Integers(a), Self::Integers(b)) => a == b,
             (Self::Words(a), Self::Words(b)) | (Self::Strings(a), Self::Strings(b)) => a == b,
-            (Self::Text(a), Self::Text(b)) | (Self::Raw(a), Self::Raw(b)) => a == b,
+            (Self::Word(a), Self::Word(b))
+            | (Self::Text(a), Self::Text(b))
+            | (Self::Raw(a), Self::Raw(b)) => a == b,
             (Self::Expression(a), Self::Expression(b)) => {
                 let solid = |byte: &u8| *byte != b' ';
                 a.bytes().filter(solid).eq(b.bytes().filter(solid))

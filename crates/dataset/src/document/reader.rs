@@ -41,7 +41,7 @@ pub(crate) fn read(source: &Source, language: Language) -> (Document, Vec<Diagno
     document.comments = comments;
     if let Some(end) = end {
         let rest = Span::new(tree.tokens[end].span().end, source.text().len());
-        document.rest = source.slice(rest).trim_end().to_string();
+        document.rest = source.slice(rest).trim().to_string();
     }
     (document, errors_of_the_text(diagnostics))
 }
@@ -185,27 +185,29 @@ impl Reader<'_> {
                 Value::Flag
             });
         };
-        let words = |spans: &[Span]| {
-            let words = spans
-                .iter()
-                .map(|span| self.source.slice(*span).to_string());
-            words.collect()
-        };
         Some(match value {
             keywords::Value::Flag => Value::Flag,
             keywords::Value::Reals(values) => {
                 let numbers = values.iter();
                 let numbers = numbers.map(|(_, span)| Number::of_text(self.source.slice(*span)));
-                let numbers = numbers.collect::<Option<_>>()?;
+                let mut numbers = numbers.collect::<Option<Vec<_>>>()?;
                 match part.kind {
+                    Some(Kind::Real) => Value::Number(numbers.pop()?),
                     Some(Kind::RealsEach) => Value::Rows(vec![numbers]),
                     _ => Value::Numbers(numbers),
                 }
             }
-            keywords::Value::Integers(values) => {
-                Value::Integers(values.iter().map(|(value, _)| *value).collect())
+            keywords::Value::Integers(values) => match part.kind {
+                Some(Kind::Integer | Kind::Id) => Value::Integer(values.first()?.0),
+                _ => Value::Integers(values.iter().map(|(value, _)| *value).collect()),
+            },
+            keywords::Value::Words(spans) => {
+                let word = |span: &Span| self.source.slice(*span).to_string();
+                match part.kind {
+                    Some(Kind::Word) => Value::Word(spans.first().map(word)?),
+                    _ => Value::Words(spans.iter().map(word).collect()),
+                }
             }
-            keywords::Value::Words(spans) => Value::Words(words(spans)),
             keywords::Value::Text(text) => Value::Text(text.clone()),
             keywords::Value::Strings(texts) => Value::Strings(texts.clone()),
             keywords::Value::Expression(expression) => Value::Expression(expression.text.clone()),
