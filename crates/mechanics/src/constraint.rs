@@ -5,7 +5,7 @@ use crate::expression::Input;
 use crate::model::{Element, JointKind, Level, Model, MotionFreedom};
 
 /// The element that a constraint equation belongs to, by its place in the model's lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Owner {
     /// A joint or joint primitive.
     Joint(usize),

@@ -295,7 +295,7 @@ impl Statics {
             };
         }
         let first = n + system.row_count();
-        system.algebraic_residual(&mut self.right[first..]);
+        system.algebraic_residual(multipliers, &mut self.right[first..]);
         if self.right.iter().any(|r| !r.is_finite()) {
             return Err(Failure::NotANumber {
                 element: system.find_not_a_number(),

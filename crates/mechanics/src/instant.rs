@@ -140,6 +140,10 @@ impl Instant {
             for k in 0..n {
                 accelerations[k] += self.right[k];
             }
+            if system.has_elements() {
+                // Reactions that are zero are so within the rounding of the forces.
+                size = self.force.iter().fold(size, |m, f| m.max(f.abs()));
+            }
             let elements = self.element_change(system, accelerations, multipliers);
             if elements.own > 1e-9 {
                 worst = elements.unknown;
@@ -236,7 +240,7 @@ impl Instant {
             self.right[n + row] = evaluated.acceleration - evaluated.rate_of(bodies, accelerations);
         }
         let first = n + system.row_count();
-        system.algebraic_residual(&mut self.right[first..]);
+        system.algebraic_residual(multipliers, &mut self.right[first..]);
         if self.right.iter().all(|r| r.is_finite()) {
             Ok(())
         } else {
@@ -352,6 +356,14 @@ impl System {
         (variable < self.model.algebraics.len()).then_some(Place::Algebraic(variable))
     }
 
+    /// Whether an equation is that of a system element.
+    fn is_element(&self, place: usize) -> bool {
+        matches!(
+            self.place(place),
+            Some(Place::State(_) | Place::Algebraic(_))
+        )
+    }
+
     /// The element that a row or unknown of the Newton matrix belongs to.
     pub(crate) fn element_at(&self, place: usize) -> Option<&Label> {
         Some(match self.place(place)? {
@@ -418,6 +430,12 @@ impl System {
     #[must_use]
     pub fn explain(&self, failure: &Failure) -> String {
         match failure {
+            Failure::Singular(singular) if self.is_element(singular.row) => format!(
+                "{} is not determined (with {}): its function leaves its own value, or its rate, as it \
+                 is",
+                self.describe(singular.row),
+                self.describe(singular.column)
+            ),
             Failure::Singular(singular) => format!(
                 "the equations have no unique solution near {} (unknown of {}); likely causes: a \
                  part without mass that can move freely, a position where the mechanism locks, or \

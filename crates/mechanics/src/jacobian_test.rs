@@ -4,7 +4,9 @@
 use nalgebra::{Matrix3, Vector3};
 use numerics::linear::Matrix;
 
+use crate::constraint::Owner;
 use crate::expression::{Binary, Input, Operation, Program, Unary};
+use crate::force_element::{Acting, ForceComponent, ForceElement, Side};
 use crate::measure::{Measure, Quantity};
 use crate::model::{
     AlgebraicVariable, Body, Definition, DifferentialState, ForceAndTorque, ForceKind, Form,
@@ -293,12 +295,80 @@ fn add_elements(model: &mut Model) {
             start: 0.0,
         });
     }
+    add_accelerations(model);
+    add_components(model);
     let readings = [
         [Input::State(0), Input::Algebraic(1)],
         [Input::StateRate(2), Input::Algebraic(2)],
+        [Input::Algebraic(3), Input::Algebraic(7)],
     ];
     for (force, [a, b]) in model.forces.iter_mut().zip(readings) {
         force.function = function(a, b);
+    }
+}
+
+/// Variables that are accelerations between markers of four bodies, the last one a point mass.
+fn add_accelerations(model: &mut Model) {
+    let quantities = [
+        Quantity::Acceleration(1),
+        Quantity::AccelerationMagnitude,
+        Quantity::AngularAcceleration(2),
+        Quantity::AngularAccelerationMagnitude,
+    ];
+    for (place, quantity) in quantities.into_iter().enumerate() {
+        let [i, j, k, l] = [0, 2, 4, 6].map(|first| (first + 5 * place) % model.markers.len());
+        model.measures.push(Measure {
+            quantity,
+            i,
+            j,
+            k,
+            l,
+        });
+        let measure = model.measures.len() - 1;
+        model.algebraics.push(AlgebraicVariable {
+            label: label("VARIABLE", 10 + place),
+            definition: Definition::Acceleration(measure),
+            start: 0.0,
+        });
+    }
+}
+
+/// Variables that are components of every kind of force, on either side.
+fn add_components(model: &mut Model) {
+    let constraints = [0, 1, 6, 7, 11, 14].map(Owner::Joint);
+    let constraints = constraints
+        .into_iter()
+        .chain([Owner::Motion(0), Owner::Motion(1)])
+        .map(ForceElement::Constraint);
+    let applied = [0, 1, 2, 3, 4, 5].map(|first| ForceElement::Applied { first, count: 1 });
+    // Components of one element share their markers.
+    let (i, j) = (model.forces[6].i, model.forces[6].j);
+    (model.forces[7].i, model.forces[7].j) = (i, j);
+    let several = ForceElement::Applied { first: 6, count: 2 };
+    let frictions = [0, 5, 6, 7].map(ForceElement::Friction);
+    let elements: Vec<ForceElement> = constraints
+        .chain(applied)
+        .chain([several])
+        .chain(frictions)
+        .collect();
+    let both = elements
+        .into_iter()
+        .flat_map(|element| [Side::I, Side::J].map(|side| Acting::Element(element, side)));
+    let joint = &model.joints[0];
+    let between = [[joint.i, joint.j], [joint.j, joint.i]].map(|[i, j]| Acting::Between { i, j });
+    for (place, acting) in both.chain(between).enumerate() {
+        for torque in [false, true] {
+            model.algebraics.push(AlgebraicVariable {
+                label: label("VARIABLE", 100 + model.algebraics.len()),
+                definition: Definition::Force(ForceComponent {
+                    acting,
+                    torque,
+                    axis: place % 3,
+                    frame: (7 * place) % model.markers.len(),
+                }),
+                start: 0.0,
+            });
+        }
     }
 }
 
@@ -358,7 +428,8 @@ impl Residual {
             };
         }
         let first = n + self.system.row_count();
-        self.system.algebraic_residual(&mut residual[first..]);
+        self.system
+            .algebraic_residual(&multipliers, &mut residual[first..]);
         for r in &mut residual[first..] {
             *r *= -self.gamma;
         }

@@ -92,6 +92,7 @@ mod dynamics;
 mod equation;
 mod equilibrium;
 pub mod expression;
+mod force_element;
 mod gain;
 mod instant;
 #[cfg(test)]
@@ -112,6 +113,7 @@ pub use assembly::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityCh
 pub use constraint::Owner;
 pub use dynamics::{Formulation, Work};
 pub use equilibrium::{EquilibriumReport, EquilibriumSettings};
+pub use force_element::{Acting, Ends, ForceComponent, ForceElement, Side};
 pub use gain::Jam;
 pub use instant::Failure;
 pub use joint_friction::{Memory, SurfaceVector, Tally, Values as FrictionValues};

@@ -56,60 +56,60 @@ impl Scalar for f64 {
     }
 }
 
-/// Value and first derivatives with respect to the twelve motions of one body: position and
-/// rotation `(δr, δθ)`, then velocity and angular velocity `(δv, δω)`, ground axes.
+/// Value and first derivatives with respect to `N` motions of one body: position and rotation
+/// `(δr, δθ)`, velocity and angular velocity `(δv, δω)`, and so on, ground axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Dual {
+pub(crate) struct Dual<const N: usize> {
     pub(crate) value: f64,
-    pub(crate) slopes: [f64; 12],
+    pub(crate) slopes: [f64; N],
 }
 
-impl Dual {
+impl<const N: usize> Dual<N> {
     fn combine(self, other: Self, value: f64, by_self: f64, by_other: f64) -> Self {
-        let mut slopes = [0.0; 12];
-        for k in 0..12 {
+        let mut slopes = [0.0; N];
+        for k in 0..N {
             slopes[k] = by_self * self.slopes[k] + by_other * other.slopes[k];
         }
         Self { value, slopes }
     }
 }
 
-impl Add for Dual {
+impl<const N: usize> Add for Dual<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         self.combine(other, self.value + other.value, 1.0, 1.0)
     }
 }
-impl Sub for Dual {
+impl<const N: usize> Sub for Dual<N> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self.combine(other, self.value - other.value, 1.0, -1.0)
     }
 }
-impl Mul for Dual {
+impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         self.combine(other, self.value * other.value, other.value, self.value)
     }
 }
-impl Div for Dual {
+impl<const N: usize> Div for Dual<N> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         self.combine(other, value, 1.0 / other.value, -value / other.value)
     }
 }
-impl Neg for Dual {
+impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
     fn neg(self) -> Self {
         self.chain(-self.value, -1.0, 0.0)
     }
 }
-impl Scalar for Dual {
+impl<const N: usize> Scalar for Dual<N> {
     fn constant(value: f64) -> Self {
         Self {
             value,
-            slopes: [0.0; 12],
+            slopes: [0.0; N],
         }
     }
     fn value(self) -> f64 {
@@ -220,6 +220,9 @@ impl<T: Scalar> Triple<T> {
             self.0[1] - other.0[1],
             self.0[2] - other.0[2],
         ])
+    }
+    pub(crate) fn times(&self, factor: T) -> Self {
+        Self(self.0.map(|component| component * factor))
     }
     pub(crate) fn norm(&self) -> T {
         self.dot(self).sqrt()

@@ -6,7 +6,7 @@ use crate::assembly::Unmet;
 use crate::constraint::Owner;
 use crate::expression::{Input, Program};
 use crate::joint_friction::{Tally, Values};
-use crate::measure::{self, MarkerAcceleration, Order};
+use crate::measure::{MarkerAcceleration, Order};
 use crate::model::{Element, Model};
 use crate::state::{MarkerFrame, State};
 use crate::system::System;
@@ -71,24 +71,7 @@ impl<'a> Snapshot<'a> {
     /// Linear and angular acceleration at a marker, ground axes.
     #[must_use]
     pub fn marker_acceleration(&self, marker: usize) -> MarkerAcceleration {
-        let frame = self.marker(marker);
-        let Some(body) = frame.body else {
-            return MarkerAcceleration {
-                linear: Vector3::zeros(),
-                angular: Vector3::zeros(),
-            };
-        };
-        self.acceleration_at(body, &frame.arm)
-    }
-
-    fn acceleration_at(&self, body: usize, arm: &Vector3<f64>) -> MarkerAcceleration {
-        let a = &self.accelerations[6 * body..6 * body + 6];
-        let angular = Vector3::from_column_slice(&a[3..]);
-        let omega = self.system.body(body).omega;
-        let linear = Vector3::from_column_slice(&a[..3])
-            + angular.cross(arm)
-            + omega.cross(&omega.cross(arm));
-        MarkerAcceleration { linear, angular }
+        self.system.marker_acceleration(marker, self.accelerations)
     }
 
     /// Frame of a part's own axes: origin, rotation, velocity and angular velocity.
@@ -109,7 +92,8 @@ impl<'a> Snapshot<'a> {
     /// Acceleration of a part's origin and its angular acceleration, ground axes.
     #[must_use]
     pub fn part_acceleration(&self, body: usize) -> MarkerAcceleration {
-        self.acceleration_at(body, &self.part(body).arm)
+        self.system
+            .acceleration_at(body, &self.part(body).arm, self.accelerations)
     }
 
     /// Force and torque of a joint, motion or general constraint on the part of its marker I, at
@@ -183,10 +167,7 @@ impl<'a> Snapshot<'a> {
         if measure.quantity.order() != Order::Acceleration {
             return self.system.measure_value(place);
         }
-        let frames = measure.markers().map(|m| self.marker(m));
-        let accelerations = measure.markers().map(|m| self.marker_acceleration(m));
-        let [i, j, k, l] = &frames;
-        measure::acceleration(measure.quantity, [i, j, k, l], accelerations)
+        self.system.acceleration_value(place, self.accelerations)
     }
 
     /// Value of a function; `result` gives the results that it reads.

@@ -5,9 +5,12 @@
 //! w = f(t, x, u, y, ẏ, w)   or   0 = f      algebraic variables
 //! ```
 //!
-//! They are solved together with velocities and reactions, at the same instant.
+//! They are solved together with velocities and reactions, at the same instant. An acceleration or a
+//! force that a function reads is an algebraic variable, too: so functions depend on states and
+//! variables only, and however they depend on one another is solved by Newton's iteration.
 
 use crate::expression::Program;
+use crate::force_element::ForceComponent;
 use crate::model::Label;
 
 /// How a function determines its unknown.
@@ -52,4 +55,19 @@ pub struct AlgebraicVariable {
 pub enum Definition {
     /// A function, of the variable itself too.
     Function(Form, Program),
+    /// A quantity of acceleration, by its place in [`crate::model::Model::measures`].
+    Acceleration(usize),
+    /// A component of a force or torque.
+    Force(ForceComponent),
+}
+
+impl Definition {
+    /// The function, where there is one.
+    #[must_use]
+    pub fn function(&self) -> Option<&Program> {
+        match self {
+            Self::Function(_, function) => Some(function),
+            Self::Acceleration(_) | Self::Force(_) => None,
+        }
+    }
 }

@@ -5,13 +5,13 @@
 //! one a friction, where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
-use mechanics::Owner;
 use mechanics::expression::Register;
 use mechanics::rotation::to_euler_313;
+use mechanics::{ForceElement, Owner};
 use results::{Component, Entity, Layout, LayoutError, Request, UnitNames};
 
 use crate::friction_detail;
-use crate::lower::{APPLIED, Column, ForceElement, Lowered, Outputs, Unit, view_name};
+use crate::lower::{APPLIED, Column, Lowered, Outputs, Unit, view_name};
 use crate::wrenches::Wrenches;
 
 /// The channels of a model.

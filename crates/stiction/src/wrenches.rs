@@ -2,10 +2,8 @@
 
 use friction::Regime;
 use mechanics::state::MarkerFrame;
-use mechanics::{FrictionValues, Owner, Snapshot, Wrench};
+use mechanics::{Acting, ForceElement, FrictionValues, Owner, Side, Snapshot, Wrench};
 use nalgebra::Vector3;
-
-use crate::lower::{ForceElement, Side};
 
 /// Forces and torques on the part of marker I, about its origin, along ground axes, each computed
 /// once an instant.
@@ -70,17 +68,16 @@ impl<'a> Wrenches<'a> {
     }
 
     /// On the part of one side, about the origin of its marker.
-    pub(crate) fn of(&self, element: ForceElement, side: Side) -> Wrench {
+    fn of(&self, element: ForceElement, side: Side) -> Wrench {
         let wrench = self.on_i(element);
         let Side::J = side else { return wrench };
-        let (i, j, on_both) = self.markers(element);
-        if !on_both {
+        let ends = self.snapshot.model().ends(element);
+        if !ends.on_both {
             return Wrench::default();
         }
-        let arm = if self.j_floats(element) {
-            Vector3::zeros()
-        } else {
-            self.marker(i).origin - self.marker(j).origin
+        let arm = match (ends.i, ends.j) {
+            (Some(i), Some(j)) if !ends.floating => self.marker(i).origin - self.marker(j).origin,
+            _ => Vector3::zeros(),
         };
         Wrench {
             force: -wrench.force,
@@ -88,69 +85,15 @@ impl<'a> Wrenches<'a> {
         }
     }
 
-    /// Everything that acts at marker `i` between it and marker `j`; with `j` the implicit ground
-    /// marker the forces that act on I alone.
-    pub(crate) fn between(&self, i: usize, j: usize) -> Wrench {
-        let model = self.snapshot.model();
-        let alone = model.markers[j].id == 0;
-        let constraints = (0..model.joints.len()).map(Owner::Joint);
-        let constraints = constraints
-            .chain((0..model.motions.len()).map(Owner::Motion))
-            .chain((0..model.constraints.len()).map(Owner::General));
-        let elements = constraints
-            .map(ForceElement::Constraint)
-            .chain((0..model.forces.len()).map(|first| ForceElement::Applied { first, count: 1 }))
-            .chain((0..model.frictions.len()).map(ForceElement::Friction));
+    /// The sum of what is asked for.
+    pub(crate) fn acting(&self, acting: Acting) -> Wrench {
         let mut sum = Wrench::default();
-        for element in elements {
-            let (own_i, own_j, on_both) = self.markers(element);
-            let side = if own_i == i && (own_j == j || alone && !on_both) {
-                Side::I
-            } else if own_i == j && own_j == i {
-                Side::J
-            } else {
-                continue;
-            };
+        for (element, side) in self.snapshot.model().acting(acting) {
             let wrench = self.of(element, side);
             sum.force += wrench.force;
             sum.torque += wrench.torque;
         }
         sum
-    }
-
-    /// Whether marker J of an element stands where I stands.
-    fn j_floats(&self, element: ForceElement) -> bool {
-        match element {
-            ForceElement::Applied { first, .. } => self.snapshot.model().forces[first].j_floats(),
-            ForceElement::Constraint(_) | ForceElement::Friction(_) => false,
-        }
-    }
-
-    /// Markers I and J of an element, and whether it acts on both.
-    fn markers(&self, element: ForceElement) -> (usize, usize, bool) {
-        let model = self.snapshot.model();
-        match element {
-            ForceElement::Constraint(Owner::Joint(place)) => {
-                (model.joints[place].i, model.joints[place].j, true)
-            }
-            ForceElement::Constraint(Owner::Motion(place)) => {
-                (model.motions[place].i, model.motions[place].j, true)
-            }
-            ForceElement::Constraint(Owner::General(place)) => {
-                let constraint = &model.constraints[place];
-                // A marker that there is not is none of a function's.
-                let marker = |marker: Option<usize>| marker.unwrap_or(usize::MAX);
-                (marker(constraint.i), marker(constraint.j), true)
-            }
-            ForceElement::Applied { first, .. } => {
-                let force = &model.forces[first];
-                (force.i, force.j, force.kind.acts_on_both())
-            }
-            ForceElement::Friction(place) => {
-                let joint = &model.joints[model.frictions[place].joint];
-                (joint.i, joint.j, true)
-            }
-        }
     }
 
     /// Friction as a force and torque on I, ground axes.

@@ -137,8 +137,8 @@ fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagno
     right
 }
 
-/// Checks the calls of `FRICTION(id, index)`, which only outputs may read; returns whether nothing
-/// is wrong.
+/// Checks the calls of `FRICTION(id, index)`, of which only outputs may read all; returns whether
+/// nothing is wrong.
 fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics) -> bool {
     let mut right = true;
     expression.root.visit(&mut |node| {
@@ -158,10 +158,12 @@ fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics
                 "1-6 force and torque, 7-13 coefficients, 14-19 velocity, 20-25 creep, 26 BETA",
             );
         }
-        if place == Place::Motion {
+        if place == Place::Motion && index > 6 {
             right = false;
-            let message = "FRICTION can be read by a REQUEST or SENSOR only";
-            diagnostics.error(Code::UnsupportedFunction, *span, message);
+            let message = "FRICTION of an index from 7 on can be read by a REQUEST or SENSOR only";
+            diagnostics
+                .error(Code::UnsupportedFunction, *span, message)
+                .help("the force and torque, 1 to 6, can be read everywhere");
         }
     });
     right

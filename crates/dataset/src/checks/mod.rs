@@ -6,11 +6,9 @@ mod expressions;
 mod friction;
 pub(crate) mod inertia;
 pub(crate) mod references;
-mod variables;
 
 pub(crate) use expressions::{check as expression, named_markers};
 pub(crate) use friction::unused_arguments;
-pub(crate) use variables::{circles, report as report_circle};
 
 use crate::diagnostic::{Code, Diagnostics};
 use crate::source::Span;
@@ -23,7 +21,6 @@ pub(crate) fn model(builder: &Builder, diagnostics: &mut Diagnostics) {
     references::check(builder, diagnostics);
     connections::check(dataset, diagnostics);
     expressions::check_all(dataset, diagnostics);
-    variables::check(dataset, diagnostics);
     friction::check(builder, diagnostics);
 }
 

@@ -124,8 +124,8 @@ codes! {
     UnknownFunction = "unknown-function", "Correct the name of the function.";
     /// A function with too few or too many arguments.
     ArgumentCount = "argument-count", "Give the function the arguments that it takes.";
-    /// Variables that define each other in a circle.
-    CircularVariables = "circular-variables", "Solve the equations for one of the variables.";
+    /// A variable that is defined by nothing but its own value, directly or through others. Circles that say more are solved.
+    CircularVariables = "circular-variables", "Give one of the variables of the circle a function of something else.";
     /// INVPSD makes a signal of random phases, which every program draws in its own way.
     RandomPhases = "random-phases", "Nothing, unless runs of different programs are to be compared: then give the signal as a SPLINE.";
 

@@ -267,7 +267,7 @@ impl Dynamics {
             };
         }
         let lacks = &mut self.right[n + self.system.row_count()..];
-        self.system.algebraic_residual(lacks);
+        self.system.algebraic_residual(&self.trial, lacks);
         for lack in lacks {
             *lack *= gamma;
         }

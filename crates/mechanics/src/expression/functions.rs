@@ -104,6 +104,10 @@ pub(super) fn unary(function: Unary, x: f64) -> (f64, f64, f64) {
         Unary::Sinh => (x.sinh(), x.cosh(), x.sinh()),
         Unary::Sqrt => {
             let r = x.sqrt();
+            // An infinite slope helps no iteration, and `√(x² + y²)` has none at its kink.
+            if r == 0.0 {
+                return (0.0, 0.0, 0.0);
+            }
             (r, 0.5 / r, -0.25 / (r * r * r))
         }
         Unary::Tan => {

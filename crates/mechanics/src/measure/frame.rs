@@ -14,7 +14,7 @@ pub(super) struct Frame<T> {
     pub(super) omega: Triple<T>,
 }
 
-fn triple(v: &Vector3<f64>) -> Triple<f64> {
+pub(super) fn triple(v: &Vector3<f64>) -> Triple<f64> {
     Triple([v.x, v.y, v.z])
 }
 
@@ -29,21 +29,29 @@ impl Frame<f64> {
     }
 }
 
-impl Frame<Dual> {
+/// Vector `v` and, where it is `seeded`, its changes `by(k)` with the motions k of a body.
+pub(super) fn seeded_vector<const N: usize>(
+    v: &Vector3<f64>,
+    seeded: bool,
+    by: &dyn Fn(usize) -> Vector3<f64>,
+) -> Triple<Dual<N>> {
+    let mut out = [0, 1, 2].map(|axis| Dual::constant(v[axis]));
+    if seeded {
+        for k in 0..N {
+            let change = by(k);
+            for axis in 0..3 {
+                out[axis].slopes[k] = change[axis];
+            }
+        }
+    }
+    Triple(out)
+}
+
+impl<const N: usize> Frame<Dual<N>> {
     /// With the slopes by the motions of its body, where it is `seeded`.
     pub(super) fn new(m: &MarkerFrame, seeded: bool) -> Self {
-        // Vector `v` plus its change: `by(k)` is the change by motion k.
         let vector = |v: &Vector3<f64>, by: &dyn Fn(usize) -> Vector3<f64>| {
-            let mut out = [0, 1, 2].map(|axis| Dual::constant(v[axis]));
-            if seeded {
-                for k in 0..12 {
-                    let change = by(k);
-                    for axis in 0..3 {
-                        out[axis].slopes[k] = change[axis];
-                    }
-                }
-            }
-            Triple(out)
+            seeded_vector::<N>(v, seeded, by)
         };
         let unit = |k: usize| {
             let mut e = Vector3::zeros();

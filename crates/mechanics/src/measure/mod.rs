@@ -5,13 +5,13 @@
 //! `d = o_i − o_j`; components are along the axes of marker k; velocities and accelerations are
 //! those seen from marker l. Ground stands for markers that a function leaves out.
 
+mod acceleration;
 mod angles;
 mod frame;
 
-use nalgebra::Vector3;
-
 use crate::scalar::{Dual, Jet, Scalar};
 use crate::state::MarkerFrame;
+pub use acceleration::{MarkerAcceleration, acceleration, acceleration_slopes};
 pub use angles::Sequence;
 use angles::{body_fixed, euler_parameter};
 use frame::Frame;
@@ -174,7 +174,7 @@ pub fn value(quantity: Quantity, markers: [&MarkerFrame; 4]) -> f64 {
 pub fn slopes(quantity: Quantity, markers: [&MarkerFrame; 4], body: usize) -> [f64; 12] {
     evaluate(
         quantity,
-        &frames(markers, |m| Frame::<Dual>::new(m, m.body == Some(body))),
+        &frames(markers, |m| Frame::<Dual<12>>::new(m, m.body == Some(body))),
     )
     .slopes
 }
@@ -184,42 +184,10 @@ pub(crate) fn jet(quantity: Quantity, markers: [&MarkerFrame; 4]) -> Jet {
     evaluate(quantity, &frames(markers, Frame::<Jet>::new))
 }
 
-/// Acceleration of a marker's origin and its body's angular acceleration, ground axes.
-#[derive(Clone, Copy, Debug)]
-pub struct MarkerAcceleration {
-    /// Of the origin.
-    pub linear: Vector3<f64>,
-    /// Of the frame.
-    pub angular: Vector3<f64>,
-}
-
-/// Value of a quantity of acceleration.
-#[must_use]
-pub fn acceleration(
-    quantity: Quantity,
-    [i, j, k, l]: [&MarkerFrame; 4],
-    accelerations: [MarkerAcceleration; 4],
-) -> f64 {
-    let [ai, aj, _, al] = accelerations;
-    let d = i.origin - j.origin;
-    let d_rate = i.velocity - j.velocity;
-    let linear = ai.linear
-        - aj.linear
-        - al.angular.cross(&d)
-        - 2.0 * l.omega.cross(&(d_rate - l.omega.cross(&d)))
-        - l.omega.cross(&l.omega.cross(&d));
-    let angular = ai.angular - aj.angular - l.omega.cross(&(i.omega - j.omega));
-    match quantity {
-        Quantity::Acceleration(axis) => linear.dot(&k.axis(axis)),
-        Quantity::AccelerationMagnitude => linear.norm(),
-        Quantity::AngularAcceleration(axis) => angular.dot(&k.axis(axis)),
-        Quantity::AngularAccelerationMagnitude => angular.norm(),
-        _ => value(quantity, [i, j, k, l]),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::rotation::Quaternion;
 

@@ -36,25 +36,36 @@ impl System {
     }
 
     /// What the algebraic variables lack: `f − w`, or `f`.
-    pub(crate) fn algebraic_residual(&mut self, out: &mut [f64]) {
+    pub(crate) fn algebraic_residual(&mut self, multipliers: &[f64], out: &mut [f64]) {
+        let (mut registers, adjoints) = self.take_scratch();
         for (place, out) in out.iter_mut().enumerate() {
-            let Definition::Function(form, function) = &self.model.algebraics[place].definition;
-            let value = function.evaluate(&mut self.registers, |input| self.inputs.read(input));
-            *out = match form {
-                Form::Explicit => value - self.inputs.algebraics[place],
-                Form::Implicit => value,
+            let own = self.inputs.algebraics[place];
+            *out = match &self.model.algebraics[place].definition {
+                Definition::Function(form, function) => {
+                    let value = function.evaluate(&mut registers, |input| self.inputs.read(input));
+                    match form {
+                        Form::Explicit => value - own,
+                        Form::Implicit => value,
+                    }
+                }
+                Definition::Acceleration(measure) => {
+                    self.acceleration_value(*measure, &self.inputs.rates) - own
+                }
+                Definition::Force(component) => {
+                    self.component_value(place, component, multipliers, &mut registers) - own
+                }
             };
         }
+        self.return_scratch(registers, adjoints);
     }
 
     /// The first system element whose function is not a number.
     pub(crate) fn element_not_a_number(&mut self) -> Option<&Label> {
         let states = self.model.states.iter();
         let states = states.map(|state| (&state.label, &state.function));
-        let algebraics = self.model.algebraics.iter().map(|variable| {
-            let Definition::Function(_, function) = &variable.definition;
-            (&variable.label, function)
-        });
+        let algebraics = self.model.algebraics.iter();
+        let algebraics = algebraics
+            .filter_map(|variable| Some((&variable.label, variable.definition.function()?)));
         let (registers, inputs) = (&mut self.registers, &self.inputs);
         states.chain(algebraics).find_map(|(label, function)| {
             let value = function.evaluate(registers, |input| inputs.read(input));
@@ -63,7 +74,12 @@ impl System {
     }
 
     /// Rows of the states and of the algebraic variables.
-    pub(super) fn assemble_elements(&mut self, weights: &Weights, matrix: &mut Matrix) {
+    pub(super) fn assemble_elements(
+        &mut self,
+        weights: &Weights,
+        multipliers: &[f64],
+        matrix: &mut Matrix,
+    ) {
         let (mut registers, mut adjoints) = self.take_scratch();
         let first = self.velocity_count();
         for (place, state) in self.model.states.iter().enumerate() {
@@ -89,22 +105,42 @@ impl System {
         let first = self.rate_count() + self.row_count();
         for (place, variable) in self.model.algebraics.iter().enumerate() {
             let row = first + place;
-            let Definition::Function(form, function) = &variable.definition;
-            let own = match form {
-                Form::Explicit => 1.0,
-                Form::Implicit => 0.0,
-            };
-            matrix.add(row, row, own);
-            function.evaluate(&mut registers, |input| self.inputs.read(input));
-            self.add_row(
-                function,
-                row,
-                -1.0,
-                weights,
-                &registers,
-                &mut adjoints,
-                matrix,
-            );
+            match &variable.definition {
+                Definition::Function(form, function) => {
+                    let own = match form {
+                        Form::Explicit => 1.0,
+                        Form::Implicit => 0.0,
+                    };
+                    matrix.add(row, row, own);
+                    function.evaluate(&mut registers, |input| self.inputs.read(input));
+                    self.add_row(
+                        function,
+                        row,
+                        -1.0,
+                        weights,
+                        &registers,
+                        &mut adjoints,
+                        matrix,
+                    );
+                }
+                Definition::Acceleration(measure) => {
+                    matrix.add(row, row, 1.0);
+                    self.assemble_acceleration(*measure, row, weights, matrix);
+                }
+                Definition::Force(component) => {
+                    matrix.add(row, row, 1.0);
+                    let scratch = [registers.as_mut_slice(), adjoints.as_mut_slice()];
+                    self.assemble_component(
+                        place,
+                        component,
+                        row,
+                        weights,
+                        multipliers,
+                        scratch,
+                        matrix,
+                    );
+                }
+            }
         }
         self.return_scratch(registers, adjoints);
     }

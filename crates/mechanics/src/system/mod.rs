@@ -22,9 +22,11 @@
 //!
 //! At `γ = 0` it is the matrix of the instantaneous accelerations and reactions.
 
+mod accelerations;
 mod bristles;
 mod elements;
 mod evaluation;
+mod force_components;
 mod forces;
 mod inputs;
 mod newton_matrix;
@@ -35,6 +37,7 @@ mod works;
 use crate::constraint::{Constraint, Evaluated, Form, Owner, list};
 use crate::equation::Equation;
 use crate::expression::{Input, Program};
+use crate::force_element::{ForceElement, Side};
 use crate::joint_friction::{BristlePast, Contribution, Memory, Share};
 use crate::measure::Quantity;
 use crate::model::{Definition, Element, Model};
@@ -79,6 +82,8 @@ pub struct System {
     pub(crate) bodies: Vec<BodyFrame>,
     pub(crate) evaluated: Vec<Evaluated>,
     inputs: Inputs,
+    /// The elements whose force each algebraic variable reads.
+    acting: Vec<Vec<(ForceElement, Side)>>,
     /// Measures that the equations (not only outputs) read.
     needed: Vec<bool>,
     measure_bodies: Vec<Vec<usize>>,
@@ -129,6 +134,14 @@ impl System {
                 bodies
             })
             .collect();
+        let acting = model
+            .algebraics
+            .iter()
+            .map(|variable| match &variable.definition {
+                Definition::Force(component) => model.acting(component.acting),
+                Definition::Function(..) | Definition::Acceleration(_) => Vec::new(),
+            })
+            .collect();
         let history = History {
             frictions: Vec::new(),
             angles: vec![0.0; model.measures.len()],
@@ -146,6 +159,7 @@ impl System {
                 .iter()
                 .map(|b| vec![[0.0; 12]; b.len()])
                 .collect(),
+            acting,
             measure_bodies,
             needed,
             rows: Vec::new(),
@@ -378,11 +392,8 @@ impl System {
 /// The functions of the system elements.
 fn element_functions(model: &Model) -> impl Iterator<Item = &Program> {
     let states = model.states.iter().map(|state| &state.function);
-    let algebraics = model.algebraics.iter().map(|variable| {
-        let Definition::Function(_, function) = &variable.definition;
-        function
-    });
-    states.chain(algebraics)
+    let algebraics = model.algebraics.iter();
+    states.chain(algebraics.filter_map(|variable| variable.definition.function()))
 }
 
 fn reaction_of(constraints: &[Constraint], joint: usize) -> Vec<Contribution> {

@@ -116,7 +116,7 @@ impl System {
             }
         }
         self.assemble_forces(weights, matrix);
-        self.assemble_elements(&weights, matrix);
+        self.assemble_elements(&weights, multipliers, matrix);
     }
 
     fn assemble_bodies(&self, weights: Weights, w: &[f64], matrix: &mut Matrix) {

@@ -43,7 +43,7 @@ impl System {
 
     /// What a unit multiplier of a constraint applies to the part of a marker, about its origin. On
     /// ground it is the opposite of what it applies to all bodies.
-    fn gradient_about(
+    pub(super) fn gradient_about(
         &self,
         marker: &MarkerFrame,
         constraint: &Constraint,

@@ -23,6 +23,16 @@ pub(super) fn dim(program: &mut Program, a: Register, b: Register) -> Register {
     binary(program, Binary::Max, excess, zero)
 }
 
+/// Magnitude of a vector, with slope zero where it is zero.
+pub(super) fn magnitude(program: &mut Program, [x, y, z]: [Register; 3]) -> Register {
+    let squares = [x, y, z].map(|c| binary(program, Binary::Multiply, c, c));
+    let sum = binary(program, Binary::Add, squares[0], squares[1]);
+    let sum = binary(program, Binary::Add, sum, squares[2]);
+    let root = unary(program, Unary::Sqrt, sum);
+    let zero = constant(program, 0.0);
+    program.push(Operation::Select(sum, zero, zero, root))
+}
+
 /// `STEP(x, x0, h0, x1, h1)` and its kin: from h0 at x0 to h1 at x1 by `shape`.
 pub(super) fn step(program: &mut Program, shape: Unary, arguments: &[Register]) -> Register {
     let [x, x0, h0, x1, h1] = *arguments else {

@@ -16,7 +16,7 @@ impl Lowering<'_> {
     }
 
     fn differential(&mut self, equation: &DifferentialEquation) -> Option<DifferentialState> {
-        let function = self.function(equation, "DIFF", Reads::Velocities, &equation.function)?;
+        let function = self.function(equation, "DIFF", Reads::Solution, &equation.function)?;
         Some(DifferentialState {
             label: label("DIFF", &equation.header),
             form: if equation.implicit {

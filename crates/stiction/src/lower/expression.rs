@@ -5,8 +5,10 @@ use std::collections::{HashMap, HashSet};
 use dataset::{ArgumentKind, BinaryOperator, Code, Element, Expr, Expression, Function, Span};
 use mechanics::expression::{Binary, Input, Operation, Program, Register, Unary};
 use mechanics::measure::Order;
+use mechanics::{Acting, ForceComponent, ForceElement, Side};
 
 use super::results::ResultSource;
+use super::unknowns::Unknown;
 use super::{Lowering, composite};
 
 /// What a function may read.
@@ -16,10 +18,10 @@ pub(super) enum Reads {
     Time,
     /// Displacements too: general constraints.
     Displacements,
-    /// Velocities too: forces.
-    Velocities,
-    /// Accelerations and forces too: outputs.
-    Everything,
+    /// Everything, solved together with the motion: forces and system elements.
+    Solution,
+    /// Everything, once the motion is solved: outputs.
+    Outputs,
 }
 
 /// An expression, or a part of one, that is not simulated; it has been reported.
@@ -65,6 +67,17 @@ impl Compiler {
         self.expr(lowering, &expression.root)
     }
 
+    /// The program whose value is that of a register.
+    pub(super) fn finish(self, value: Register) -> Program {
+        let mut program = self.program;
+        // The value of a program is that of its last operation.
+        if value as usize + 1 != program.len() {
+            let zero = program.push(Operation::Constant(0.0));
+            program.push(Operation::Binary(Binary::Add, value, zero));
+        }
+        program
+    }
+
     /// Value of a variable.
     pub(super) fn variable(
         &mut self,
@@ -83,7 +96,8 @@ impl Compiler {
         Ok(())
     }
 
-    /// Adds a variable after all variables that it reads, each once. The dataset has no circles.
+    /// Adds a variable after all variables that it reads, each once. One of every circle is an
+    /// unknown, see [`Lowering::break_circles`].
     fn close_variable(&mut self, lowering: &mut Lowering, id: u32) -> Result<(), Refused> {
         let mut stack = vec![id];
         let mut opened = HashSet::new();
@@ -93,7 +107,11 @@ impl Compiler {
                 stack.pop();
                 continue;
             };
-            if opened.insert(top) {
+            if let Some(place) = lowering.measures.unknowns.of_variable(top) {
+                let value = self.unknown(place, lowering, top, function.span);
+                self.variables.insert(top, value);
+                stack.pop();
+            } else if opened.insert(top) {
                 let needed = variables_of(lowering, &function.root);
                 stack.extend(
                     needed
@@ -174,27 +192,31 @@ impl Compiler {
             let allowed = match self.reads {
                 Reads::Time => false,
                 Reads::Displacements => order == Order::Displacement,
-                Reads::Velocities => order != Order::Acceleration,
-                Reads::Everything => true,
+                Reads::Solution | Reads::Outputs => true,
             };
-            return if allowed {
+            return if allowed && order == Order::Acceleration && self.reads == Reads::Solution {
+                Ok(self.solved(lowering, Unknown::Acceleration(measure)))
+            } else if allowed {
                 Ok(self.program.push(Operation::Input(Input::Measure(measure))))
             } else {
                 Err(self.refuse_order(lowering, call))
             };
         }
         if let Some(input) = state_of(lowering, function, arguments) {
-            return if self.reads >= Reads::Velocities {
+            return if self.reads >= Reads::Solution {
                 Ok(self.program.push(Operation::Input(input)))
             } else {
                 Err(self.refuse_order(lowering, call))
             };
         }
         if let Some(source) = ResultSource::of_call(lowering, function, arguments) {
-            if self.reads != Reads::Everything {
-                return Err(self.refuse_order(lowering, call));
-            }
-            return Ok(self.result(lowering, source));
+            return match self.reads {
+                Reads::Time | Reads::Displacements => Err(self.refuse_order(lowering, call)),
+                Reads::Outputs => Ok(self.result(lowering, source)),
+                Reads::Solution => self
+                    .solved_result(lowering, source)
+                    .ok_or_else(|| self.refuse_function(lowering, call)),
+            };
         }
         match function {
             Function::Akispl | Function::Cubspl => {
@@ -233,6 +255,70 @@ impl Compiler {
         Ok(self.program.push_lookup(&table, order, x, z))
     }
 
+    /// An algebraic variable.
+    fn solved(&mut self, lowering: &mut Lowering, unknown: Unknown) -> Register {
+        let place = lowering.measures.unknowns.place(unknown);
+        self.program.push(Operation::Input(Input::Algebraic(place)))
+    }
+
+    /// A VARIABLE that is an unknown; reports one where it may not be read.
+    fn unknown(
+        &mut self,
+        place: usize,
+        lowering: &mut Lowering,
+        id: u32,
+        span: Span,
+    ) -> Option<Register> {
+        if self.reads >= Reads::Solution {
+            return Some(self.program.push(Operation::Input(Input::Algebraic(place))));
+        }
+        let message = format!(
+            "{} reads VARIABLE/{id}, which depends on itself; only forces, states and outputs may",
+            self.owner
+        );
+        lowering.error(Code::UnsupportedFunction, span, message, None);
+        None
+    }
+
+    /// A force that is solved together with the motion. `None` for what is known of a friction
+    /// beside its force and torque.
+    fn solved_result(&mut self, lowering: &mut Lowering, source: ResultSource) -> Option<Register> {
+        let (acting, torque, axes, axis) = match source {
+            ResultSource::Component {
+                acting,
+                component,
+                axes,
+            } => (acting, component >= 4, axes, (component % 4).checked_sub(1)),
+            ResultSource::Friction {
+                friction,
+                component,
+            } if component < 6 => {
+                let element = &lowering.dataset.frictions[friction];
+                let joint = lowering.dataset.joints.by_id(element.joint)?;
+                let axes = lowering.marker_place(joint.j);
+                let acting = Acting::Element(ForceElement::Friction(friction), Side::I);
+                (acting, component >= 3, axes, Some(component % 3))
+            }
+            ResultSource::Friction { .. } => return None,
+        };
+        let mut along = |axis: usize| {
+            let component = ForceComponent {
+                acting,
+                torque,
+                axis,
+                frame: axes,
+            };
+            self.solved(lowering, Unknown::Force(component))
+        };
+        Some(match axis {
+            Some(axis) => along(axis),
+            None => {
+                let components = [0, 1, 2].map(along);
+                composite::magnitude(&mut self.program, components)
+            }
+        })
+    }
+
     /// A value that is known only once an instant has been solved.
     pub(super) fn result(&mut self, lowering: &mut Lowering, source: ResultSource) -> Register {
         lowering.results.push(source);
@@ -248,7 +334,7 @@ impl Compiler {
         let may = match self.reads {
             Reads::Time => "TIME only",
             Reads::Displacements => "TIME and displacements only",
-            Reads::Velocities | Reads::Everything => "TIME, displacements and velocities only",
+            Reads::Solution | Reads::Outputs => "less",
         };
         let message = format!(
             "{} reads {}, but it may read {may}",
@@ -396,7 +482,8 @@ fn state_of(lowering: &Lowering, function: Function, arguments: &[Expr]) -> Opti
     lowering.dataset.differentials.position(id).map(input)
 }
 
-fn variables_of(lowering: &Lowering, root: &Expr) -> Vec<u32> {
+/// The variables that an expression reads.
+pub(super) fn variables_of(lowering: &Lowering, root: &Expr) -> Vec<u32> {
     let mut found = Vec::new();
     root.visit(&mut |node| found.extend(variable_of(lowering, node)));
     found
@@ -414,12 +501,6 @@ impl Lowering<'_> {
         let mut compiler = Compiler::new(reads);
         let owner = format!("{statement}/{}", element.header().id);
         let value = compiler.add(self, &owner, expression).ok()?;
-        let mut program = compiler.program;
-        // The value of a program is that of its last operation.
-        if value as usize + 1 != program.len() {
-            let zero = program.push(Operation::Constant(0.0));
-            program.push(Operation::Binary(Binary::Add, value, zero));
-        }
-        Some(program)
+        Some(compiler.finish(value))
     }
 }

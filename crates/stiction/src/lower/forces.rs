@@ -138,7 +138,7 @@ impl Lowering<'_> {
     pub(super) fn forces(&mut self, model: &mut Model) {
         let dataset = self.dataset;
         for force in &dataset.single_forces {
-            let function = self.function(force, "SFORCE", Reads::Velocities, &force.function);
+            let function = self.function(force, "SFORCE", Reads::Solution, &force.function);
             let Some(function) = function else { continue };
             model.forces.push(SingleForce {
                 label: label("SFORCE", &force.header),
@@ -189,7 +189,7 @@ impl Lowering<'_> {
         let ends = [force.i, force.j_float, force.rm].map(|id| self.marker_place(id));
         for component in components {
             let function = match &force.components[component] {
-                Some(function) => self.function(force, statement, Reads::Velocities, function),
+                Some(function) => self.function(force, statement, Reads::Solution, function),
                 None => Some(Program::constant(0.0)),
             };
             let Some(function) = function else { continue };

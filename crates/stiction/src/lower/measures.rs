@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::unknowns::Unknowns;
 use dataset::{Expr, Function};
 use mechanics::measure::{Measure, Quantity, Sequence};
 
@@ -13,6 +14,8 @@ use mechanics::measure::{Measure, Quantity, Sequence};
 pub(crate) struct Measures {
     list: Vec<Measure>,
     places: HashMap<Measure, usize>,
+    /// The algebraic variables, which keep their numbers likewise.
+    pub(super) unknowns: Unknowns,
 }
 
 impl Measures {

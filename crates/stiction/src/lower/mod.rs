@@ -25,6 +25,7 @@ mod pose;
 mod power_density;
 mod results;
 mod tables;
+mod unknowns;
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -36,7 +37,6 @@ use nalgebra::Vector3;
 pub(crate) use forces::APPLIED;
 pub(crate) use measures::Measures;
 pub(crate) use outputs::{Column, Outputs, Unit};
-pub(crate) use results::{ForceElement, Side};
 
 /// The analysis that functions are lowered for: what MODE gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,6 +112,7 @@ pub(crate) fn lower(
         gravity,
         ..Model::default()
     };
+    lowering.break_circles();
     lowering.bodies(&mut model);
     lowering.joints(&mut model);
     lowering.frictions(&mut model);
@@ -120,6 +121,7 @@ pub(crate) fn lower(
     lowering.motions(&mut model);
     lowering.forces(&mut model);
     lowering.differentials(&mut model);
+    lowering.algebraics(&mut model);
     let outputs = lowering.outputs();
     model.inactive = lowering.inactive();
     let Lowering {

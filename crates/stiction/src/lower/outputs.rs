@@ -84,7 +84,7 @@ impl Lowering<'_> {
     /// measures that a step needs.
     pub(super) fn outputs(&mut self) -> Outputs {
         let dataset = self.dataset;
-        let mut compiler = Compiler::new(Reads::Everything);
+        let mut compiler = Compiler::new(Reads::Outputs);
         let mut outputs = Outputs::default();
         for variable in &dataset.variables {
             if let Ok(value) = compiler.variable(self, variable.header.id) {
@@ -100,7 +100,7 @@ impl Lowering<'_> {
             });
         }
         for sensor in &dataset.sensors {
-            let function = self.function(sensor, "SENSOR", Reads::Everything, &sensor.function);
+            let function = self.function(sensor, "SENSOR", Reads::Outputs, &sensor.function);
             outputs.sensors.extend(function);
         }
         outputs.program = compiler.program;

@@ -1,71 +1,20 @@
 //! Functions whose value is part of the solution: reactions, forces and friction.
 
-use std::ops::Range;
-
 use dataset::{Expr, Function, Switchable};
-use mechanics::Owner;
+use mechanics::{Acting, ForceElement, Owner, Side};
 use nalgebra::Vector3;
 
 use super::Lowering;
 use super::forces::applied_places;
 use crate::wrenches::Wrenches;
 
-/// An element that applies a force and a torque between two markers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ForceElement {
-    /// A joint, primitive or motion.
-    Constraint(Owner),
-    /// An applied force, by the places of its components among the model's forces.
-    Applied {
-        /// The first one.
-        first: usize,
-        /// How many follow one another.
-        count: usize,
-    },
-    /// Friction, by its place among the model's frictions.
-    Friction(usize),
-}
-
-impl ForceElement {
-    /// The applied force whose components have these places.
-    pub(crate) fn applied(places: Range<usize>) -> Self {
-        Self::Applied {
-            first: places.start,
-            count: places.len(),
-        }
-    }
-}
-
-/// On which of its two markers an element's force is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
-    /// On the part of I, about the origin of I.
-    I,
-    /// On the part of J, about the origin of J.
-    J,
-}
-
 /// Where a result that an output reads comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ResultSource {
-    /// Component 0 to 7 (FM FX FY FZ TM TX TY TZ) of one element along the axes of a marker.
-    Element {
-        /// The element.
-        element: ForceElement,
-        /// On which side.
-        side: Side,
-        /// Which component.
-        component: usize,
-        /// Marker whose axes resolve.
-        axes: usize,
-    },
-    /// The same of everything that acts at marker i between it and marker j; with `j` ground also
-    /// of the forces that act on i alone.
-    Between {
-        /// Marker on which the force acts.
-        i: usize,
-        /// The other marker.
-        j: usize,
+    /// Component 0 to 7 (FM FX FY FZ TM TX TY TZ) of a force along the axes of a marker.
+    Component {
+        /// Whose force.
+        acting: Acting,
         /// Which component.
         component: usize,
         /// Marker whose axes resolve.
@@ -92,9 +41,9 @@ impl ResultSource {
         let number = |k: usize| arguments.get(k).and_then(Expr::as_id);
         let marker = |k: usize| lowering.marker_place(number(k).unwrap_or(0));
         let between = |component, axes| {
-            Some(Self::Between {
-                i: marker(0),
-                j: marker(1),
+            let (i, j) = (marker(0), marker(1));
+            Some(Self::Component {
+                acting: Acting::Between { i, j },
                 component,
                 axes,
             })
@@ -148,9 +97,8 @@ impl ResultSource {
             _ => return None,
         };
         let component = number(2)?.checked_sub(1).filter(|c| *c < 8)? as usize;
-        Some(Self::Element {
-            element,
-            side,
+        Some(Self::Component {
+            acting: Acting::Element(element, side),
             component,
             axes: marker(3),
         })
@@ -159,22 +107,12 @@ impl ResultSource {
     /// Its value at a solved instant.
     pub(crate) fn value(&self, instant: &Wrenches) -> f64 {
         match *self {
-            Self::Element {
-                element,
-                side,
+            Self::Component {
+                acting,
                 component,
                 axes,
             } => {
-                let wrench = instant.of(element, side);
-                resolved(wrench.force, wrench.torque, component, instant, axes)
-            }
-            Self::Between {
-                i,
-                j,
-                component,
-                axes,
-            } => {
-                let wrench = instant.between(i, j);
+                let wrench = instant.acting(acting);
                 resolved(wrench.force, wrench.torque, component, instant, axes)
             }
             Self::Friction {

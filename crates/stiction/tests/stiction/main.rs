@@ -28,3 +28,4 @@ mod runs;
 mod shared;
 mod statics;
 mod table;
+mod unknowns;
