@@ -1,6 +1,5 @@
 //! Reads the files of a project: a dataset, or command files and the dataset that they name.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use dataset::{Code, Command, CommandKind, Dataset, Diagnostic, Severity, Source, Span};
@@ -22,6 +21,9 @@ pub(crate) fn load(path: &Path, levels: Levels) -> Result<Project, InputError> {
     }
     loader.finish(is_dataset, levels)
 }
+
+/// Most files in one project: files that call others twice each soon are more than any memory.
+const MOST_FILES: usize = 1000;
 
 /// A command file that is being gone through.
 struct OpenFile {
@@ -122,7 +124,6 @@ impl Loader {
 
     /// Reads a command file and the ones it calls, in the order of the commands.
     fn read_commands(&mut self, path: &Path) {
-        let mut called = HashSet::from([path.to_owned()]);
         let mut open: Vec<OpenFile> = self.open(path, None).into_iter().collect();
         let named = !open.is_empty();
         while let Some(file) = open.last_mut() {
@@ -144,13 +145,17 @@ impl Loader {
                 }
                 CommandKind::CommandFile { path } => {
                     let found = resolve(&folder, path, "acf");
-                    // A file that is called twice may call itself.
-                    if called.insert(found.clone()) {
-                        open.extend(self.open(&found, Some(&naming)));
-                    } else {
-                        let message = format!("{} is called twice", found.display());
-                        let help = Some("a file that calls itself would never end");
+                    if open.iter().any(|file| file.path == found) {
+                        let message = format!("{} calls itself", found.display());
+                        let help = Some("this would never end");
                         self.report(Code::RepeatedFile, "", Some(&naming), message, help);
+                    } else if self.sources.len() == MOST_FILES {
+                        let message = format!("more than {MOST_FILES} files are called");
+                        let help = Some("write the commands into fewer files");
+                        self.report(Code::RepeatedFile, "", Some(&naming), message, help);
+                        return;
+                    } else {
+                        open.extend(self.open(&found, Some(&naming)));
                     }
                     continue;
                 }

@@ -74,8 +74,8 @@ codes! {
     WrongFileType = "wrong-file-type", "Give a dataset the extension `.adm` and a command file the extension `.acf`.";
     /// A command file comes to a command, or to its end, without any model.
     NoModel = "no-model", "Write `FILE/MODEL=name` before the first command that needs the model.";
-    /// A command file is called a second time: files that call each other would never end.
-    RepeatedFile = "repeated-file", "Call each command file once.";
+    /// A command file calls itself, or a file that calls it, which would never end.
+    RepeatedFile = "repeated-file", "Take out the FILE/COMMAND that leads back to a file that is still being read.";
     /// More messages than are shown.
     TooMany = "too-many", "Correct the first ones; often the others follow from them.";
 

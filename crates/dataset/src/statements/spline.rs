@@ -9,9 +9,6 @@ use crate::source::Span;
 
 const FILE: &str = "time histories of other programs are not read; give X and Y";
 
-/// The fewest points that a curve is drawn through.
-const FEWEST: usize = 4;
-
 pub(super) const KEYWORDS: &[Keyword] = &[
     keyword("X", Kind::Reals(1, usize::MAX)),
     keyword("Y", Kind::RealsEach),
@@ -32,8 +29,12 @@ pub(super) fn spline(reading: &mut Reading, builder: &mut Builder) {
     }
     let x = reading.reals("X").to_vec();
     rising(reading, "X", &x);
-    if reading.has("X") && x.len() < FEWEST && !x.is_empty() {
-        let message = format!("X needs at least {FEWEST} numbers, found {}", x.len());
+    if reading.has("X") && x.len() < Spline::FEWEST && !x.is_empty() {
+        let message = format!(
+            "X needs at least {} numbers, found {}",
+            Spline::FEWEST,
+            x.len()
+        );
         let span = reading.place("X");
         reading.diagnostics.error(Code::InvalidValue, span, message);
     }

@@ -13,9 +13,11 @@ use super::Lowering;
 pub(super) struct Tables(HashMap<(Function, u32), Arc<Surface>>);
 
 impl Lowering<'_> {
-    /// The spline of this id as AKISPL or CUBSPL interpolates it; `None` where there is none.
+    /// The spline of this id as AKISPL or CUBSPL interpolates it; `None` where there is none that
+    /// was read without errors.
     pub(super) fn table(&mut self, function: Function, id: u32) -> Option<Arc<Surface>> {
-        let spline = self.dataset.splines.by_id(id)?;
+        let spline = self.dataset.splines.by_id(id);
+        let spline = spline.filter(|spline| spline.is_interpolable())?;
         let table = self.tables.0.entry((function, id));
         Some(Arc::clone(
             table.or_insert_with(|| Arc::new(surface(function, spline))),

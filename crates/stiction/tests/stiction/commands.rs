@@ -250,3 +250,42 @@ SIMULATE/DYNAMIC, END=3, STEPS=4
     assert_eq!(report.simulations, 1);
     assert!(results.block("dynamic_003").is_none());
 }
+
+#[test]
+fn a_file_may_be_called_again_but_not_by_itself() {
+    let commands = "\nFILE/MODEL=slider\nFILE/COMMAND=push\nFILE/COMMAND=push\nSTOP\n";
+    let file = with_commands("again", commands);
+    let push = file.with_file_name("push.acf");
+    std::fs::write(
+        &push,
+        "! one second\nSIMULATE/DYNAMIC, DURATION=1, STEPS=2\n",
+    )
+    .unwrap();
+    let project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
+    let (report, _) = run(&project, RunOptions::default());
+    assert_eq!((report.simulations, report.time), (2, 2.0));
+
+    std::fs::write(&push, "\nFILE/COMMAND=again\n").unwrap();
+    let error = Project::load(&file).unwrap_err().to_string();
+    assert!(
+        error.contains("push.acf:2:1: error[repeated-file]"),
+        "{error}"
+    );
+    assert!(error.contains("again.acf calls itself"), "{error}");
+}
+
+#[test]
+fn a_spline_with_errors_is_reported_where_it_stands() {
+    for spline in [
+        "X=0,1, Y=0,1",
+        "X=0,2,1,3, Y=0,1,2,3",
+        "X=0,1,2,3, Y=0,1,2",
+        "X=0,1,2,3, Y=0,0,1,2,3, Y=0,0,1,2,3",
+        "X=0,1,2,1E400, Y=0,1,2,3",
+    ] {
+        let text = SLIDER.replace("FUNCTION=6", "FUNCTION=AKISPL(TIME,0,1)");
+        let text = text.replace("END\n", &format!("SPLINE/1, {spline}\nEND\n"));
+        let message = crate::shared::refusal(&text);
+        assert!(message.contains("model.adm:10:"), "{spline}: {message}");
+    }
+}
