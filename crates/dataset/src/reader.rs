@@ -236,7 +236,8 @@ impl RawHead {
             return id;
         }
         let shown = diagnostics.source.excerpt(number.span());
-        let message = format!("{name}/{shown}: numbers of elements are whole and positive");
+        let message =
+            format!("{name}/{shown}: numbers of elements are whole, from 1 to 4294967295");
         diagnostics.error(Code::InvalidId, number.span(), message);
         0
     }

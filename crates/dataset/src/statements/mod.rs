@@ -95,8 +95,8 @@ pub(crate) struct Builder {
     pub(crate) frictions: Vec<FrictionPlaces>,
     /// The place of ACCGRAV.
     pub(crate) gravity: Option<Span>,
-    /// The part before the statement, which owns markers that name no part.
-    pub(crate) last_part: Option<u32>,
+    /// The last `PART` or `POINT_MASS`, which owns markers that name no body.
+    pub(crate) last_body: Option<(Target, u32)>,
     /// Motions of joints that do not say whether they turn or slide: identifier and head.
     pub(crate) unnamed_freedoms: Vec<(u32, Span)>,
     /// Statements without identifier seen so far.

@@ -95,7 +95,7 @@ pub(super) fn part(reading: &mut Reading, builder: &mut Builder) {
         exact: exact(reading),
         material: reading.text("MATERIAL"),
     };
-    builder.last_part = Some(part.header.id);
+    builder.last_body = Some((Target::Part, part.header.id));
     add(
         &mut builder.dataset.parts,
         part,
@@ -132,6 +132,7 @@ pub(super) fn point_mass(reading: &mut Reading, builder: &mut Builder) {
         velocity: ["VX", "VY", "VZ"].map(|keyword| reading.real(keyword)),
         exact: exact(reading),
     };
+    builder.last_body = Some((Target::PointMass, point_mass.header.id));
     let list = &mut builder.dataset.point_masses;
     add(list, point_mass, reading.name, reading.diagnostics);
 }
@@ -181,7 +182,7 @@ pub(super) fn marker(reading: &mut Reading, builder: &mut Builder) {
             MarkerOwner::PointMass(point_mass.unwrap_or(0))
         }
         Some(_) => MarkerOwner::Refused,
-        None => part_before(reading, builder),
+        None => body_before(reading, builder),
     };
     let orientation = orientation(reading, "ZP", "XP", reading.vector("QP"));
     let marker = Marker {
@@ -199,11 +200,11 @@ pub(super) fn marker(reading: &mut Reading, builder: &mut Builder) {
     );
 }
 
-/// A marker that names no part belongs to the last part before it.
-fn part_before(reading: &mut Reading, builder: &mut Builder) -> MarkerOwner {
+/// A marker that names no body belongs to the last one before it (Adams Solver, MARKER: PART).
+fn body_before(reading: &mut Reading, builder: &mut Builder) -> MarkerOwner {
     let span = reading.head;
     let label = reading.label();
-    let Some(id) = builder.last_part else {
+    let Some((target, id)) = builder.last_body else {
         let message = format!("{label} names no part, and there is none before it");
         reading
             .diagnostics
@@ -211,18 +212,19 @@ fn part_before(reading: &mut Reading, builder: &mut Builder) -> MarkerOwner {
             .help("add PART");
         return MarkerOwner::Part(0);
     };
-    let message = format!("{label} names no part; it is put on PART/{id}, the last one before it");
+    let body = target.statement();
+    let message =
+        format!("{label} names no part; it is put on {body}/{id}, the last one before it");
     reading
         .diagnostics
         .warning(Code::MissingArgument, span, message)
-        .help(format!("write PART = {id}"))
-        .replace(Span::new(span.end, span.end), format!(", PART = {id}"));
-    builder.references.push(Reference {
-        target: Target::Part,
-        id,
-        span,
-    });
-    MarkerOwner::Part(id)
+        .help(format!("write {body} = {id}"))
+        .replace(Span::new(span.end, span.end), format!(", {body} = {id}"));
+    builder.references.push(Reference { target, id, span });
+    match target {
+        Target::PointMass => MarkerOwner::PointMass(id),
+        _ => MarkerOwner::Part(id),
+    }
 }
 
 /// REULER, or the points on the axes, checked for points that define no axes.

@@ -2,8 +2,9 @@
 //! simulated is refused by its name.
 
 use dataset::{
-    Code, Corrector, Dataset, Diagnostic, Expr, Function, IntegratorMethod, MotionLevel,
-    MotionTarget, Orientation, RequestKind, Severity, Source, read_commands, read_dataset,
+    Code, Corrector, Dataset, Diagnostic, Expr, Function, IntegratorMethod, MarkerOwner,
+    MotionLevel, MotionTarget, Orientation, RequestKind, Severity, Source, read_commands,
+    read_dataset,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -100,6 +101,17 @@ MARKER/70, PART = 7
 POINT_MASS/5, MASS = 0.25, CM = 50, QG = 1, 2, 3, EXACT = X:Y:Z
 MARKER/50, POINT_MASS = 5
 ", |model| assert_eq!(model.point_masses.by_id(5).unwrap().mass, 0.25)),
+    read("by hand, markers behind their body", "
+PART/60, MASS = 1, CM = 61, IP = 1, 1, 1
+MARKER/61
+POINT_MASS/6, MASS = 0.25, CM = 62
+MARKER/62
+MARKER/63, QP = 1, 2, 3
+", |model| {
+        let owner = |id| model.markers.by_id(id).unwrap().owner;
+        assert_eq!(owner(61), MarkerOwner::Part(60));
+        assert_eq!([62, 63].map(owner), [MarkerOwner::PointMass(6); 2]);
+    }),
     read("View, joint and motion", "
 !                           adams_view_name='JOINT_1'
 JOINT/1
