@@ -10,6 +10,7 @@ use crate::source::Span;
 use std::collections::BTreeSet;
 
 const NOT_HERE: &str = "it is read but not simulated, so that there is nothing to switch";
+const NO_SWITCH: &str = "what stops with it is not documented";
 const NEVER_READ: &str = "no dataset that stiction reads has one";
 
 /// The types of elements and which of them are meant.
@@ -30,13 +31,13 @@ pub(crate) const KEYWORDS: &[Keyword] = &[
     abbreviated("BEAM", "BE", Kind::Flag),
     abbreviated("FRICTION", "FRI", Kind::Flag),
     abbreviated("SENSOR", "SE", Kind::Flag),
+    abbreviated("CONTACT", "CON", Kind::Flag),
     abbreviated("VARIABLE", "VAR", Kind::Unsupported(NOT_HERE)),
     abbreviated("REQUEST", "REQ", Kind::Unsupported(NOT_HERE)),
     abbreviated("CLEARANCE", "CL", Kind::Unsupported(NOT_HERE)),
     keyword("ADAMS_BUSHING", Kind::Unsupported(NEVER_READ)),
-    abbreviated("CONTACT", "CON", Kind::Unsupported(NEVER_READ)),
     keyword("CVCV", Kind::Unsupported(NEVER_READ)),
-    abbreviated("DIFF", "DI", Kind::Unsupported(NEVER_READ)),
+    abbreviated("DIFF", "DI", Kind::Unsupported(NO_SWITCH)),
     abbreviated("FLEX_BODY", "FL", Kind::Unsupported(NEVER_READ)),
     abbreviated("GSE", "GS", Kind::Unsupported(NEVER_READ)),
     keyword("LSE", Kind::Unsupported(NEVER_READ)),
@@ -169,6 +170,7 @@ impl Dataset {
             Switchable::Beam => sorted(&self.beams),
             Switchable::Friction => sorted(&self.frictions),
             Switchable::Sensor => sorted(&self.sensors),
+            Switchable::Contact => sorted(&self.contacts),
         };
         let name = activity.kind.statement();
         match &activity.selection {

@@ -43,7 +43,7 @@ fn statement(index: usize) -> Grammar {
     let form = match rule.action {
         Action::Read(Some(keywords), _) => Form::Table(keywords),
         Action::Read(None, _) => Form::Free,
-        Action::Ignored(_) | Action::Unsupported => Form::Unknown,
+        Action::Ignored(_) | Action::Unsupported(_) => Form::Unknown,
     };
     Grammar {
         name: rule.name.full,

@@ -137,9 +137,11 @@ fn read_statement(
             builder.mention(diagnostics.source, &items[raw.rest..]);
             return;
         }
-        Action::Unsupported => {
-            let message = format!("stiction does not simulate {name} yet");
-            diagnostics.error(Code::UnsupportedStatement, raw.head, message);
+        Action::Unsupported(instead) => {
+            let message = format!("stiction does not simulate {name}");
+            diagnostics
+                .error(Code::UnsupportedStatement, raw.head, message)
+                .help(instead);
             return;
         }
     };

@@ -36,7 +36,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
     let mut messages = project.warnings().to_vec();
     messages.extend(surveyed);
     let dataset = project.dataset();
-    let mut simulation = project.simulation()?;
+    let mut simulation = project.as_given()?;
     let counts = [
         ("PART", dataset.parts.len()),
         ("POINT_MASS", dataset.point_masses.len()),
@@ -55,6 +55,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("BUSHING", dataset.bushings.len()),
         ("FIELD", dataset.fields.len()),
         ("BEAM", dataset.beams.len()),
+        ("CONTACT", dataset.contacts.len()),
         ("FRICTION", dataset.frictions.len()),
         ("VARIABLE", dataset.variables.len()),
         ("DIFF", dataset.differentials.len()),

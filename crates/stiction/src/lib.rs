@@ -59,6 +59,7 @@ mod lower;
 mod message;
 mod project;
 mod recorder;
+mod refusal;
 mod report;
 mod runner;
 mod sensors;

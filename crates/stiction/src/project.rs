@@ -11,6 +11,7 @@ use crate::levels::Levels;
 use crate::loader;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
+use crate::refusal;
 use crate::settings;
 
 /// A checked dataset with the commands of its command file.
@@ -169,23 +170,32 @@ impl Project {
     /// # Ok::<(), stiction::InputError>(())
     /// ```
     pub fn simulation(&self) -> Result<mechanics::Simulation, InputError> {
-        let source = self.model_source();
-        let lowered = lower(
-            &self.dataset,
-            source.name(),
-            &mut Measures::default(),
-            Mode::Dynamic,
-        );
-        let lowered = lowered.map_err(|diagnostics| InputError {
-            messages: diagnostics
-                .into_iter()
-                .map(|diagnostic| Message::new(diagnostic, source))
-                .collect(),
-        })?;
+        let acting = refusal::acting(&self.dataset, self.model_source().name());
+        if acting.is_empty() {
+            self.as_given()
+        } else {
+            Err(self.refused(acting))
+        }
+    }
+
+    /// The same without what is read but not simulated.
+    pub(crate) fn as_given(&self) -> Result<mechanics::Simulation, InputError> {
+        let source = self.model_source().name();
+        let measures = &mut Measures::default();
+        let lowered = lower(&self.dataset, source, measures, Mode::Dynamic);
+        let lowered = lowered.map_err(|diagnostics| self.refused(diagnostics))?;
         Ok(mechanics::Simulation::new(
             lowered.model,
             second(&self.dataset),
         ))
+    }
+
+    fn refused(&self, diagnostics: Vec<Diagnostic>) -> InputError {
+        let source = self.model_source();
+        let messages = diagnostics.into_iter().map(|d| Message::new(d, source));
+        InputError {
+            messages: messages.collect(),
+        }
     }
 
     /// Lowers the model as given and after each change of the command file, so that everything
@@ -206,23 +216,38 @@ impl Project {
         let mut dataset = self.dataset.clone();
         let mut changed = None;
         let mut time = 0.0;
+        let acting = |dataset: &Dataset| {
+            let acting = refusal::acting(dataset, source.name()).into_iter();
+            acting.map(|diagnostic| Message::new(diagnostic, source))
+        };
+        // What is not simulated is told once.
+        let mut told = false;
         for step in &self.commands {
-            match &step.command.kind {
+            let kind = &step.command.kind;
+            if matches!(
+                kind,
+                CommandKind::Simulate(_) | CommandKind::Eigensolution(_)
+            ) {
+                // A model that is refused as given would be refused again.
+                if let Some(changed) = changed.take().filter(|_| given) {
+                    let lowered = lower(&dataset, source.name(), &mut measures, Mode::Dynamic);
+                    messages.extend(self.at_command(lowered.err(), changed));
+                }
+                if !told {
+                    let before = messages.len();
+                    messages.extend(acting(&dataset));
+                    told = messages.len() > before;
+                }
+            }
+            match kind {
                 CommandKind::Change(change) => {
                     messages.extend(self.change(&mut dataset, change, step.source));
                     changed = Some(step);
                 }
-                CommandKind::Simulate(simulate) => {
-                    // A model that is refused as given would be refused again.
-                    if let Some(changed) = changed.take().filter(|_| given) {
-                        let lowered = lower(&dataset, source.name(), &mut measures, Mode::Dynamic);
-                        messages.extend(self.at_command(lowered.err(), changed));
-                    }
-                    match settings::span(simulate, time) {
-                        Ok(span) => time = span.map_or(time, |span| span.end),
-                        Err(text) => messages.push(self.refuse(text, step)),
-                    }
-                }
+                CommandKind::Simulate(simulate) => match settings::span(simulate, time) {
+                    Ok(span) => time = span.map_or(time, |span| span.end),
+                    Err(text) => messages.push(self.refuse(text, step)),
+                },
                 CommandKind::Eigensolution(asked) => {
                     if let Some((id, _)) = asked.reference
                         && dataset.markers.by_id(id).is_none()
@@ -233,6 +258,9 @@ impl Project {
                 CommandKind::Stop => break,
                 CommandKind::Model { .. } | CommandKind::CommandFile { .. } => {}
             }
+        }
+        if self.commands.is_empty() {
+            messages.extend(acting(&dataset));
         }
         let messages = self.levels.judge_all(messages);
         if messages.iter().any(Message::is_error) {

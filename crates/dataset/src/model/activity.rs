@@ -38,11 +38,13 @@ pub enum Switchable {
     Friction,
     /// SENSOR.
     Sensor,
+    /// CONTACT.
+    Contact,
 }
 
 impl Switchable {
     /// Every type.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Joint,
         Self::Primitive,
         Self::Motion,
@@ -59,6 +61,7 @@ impl Switchable {
         Self::Beam,
         Self::Friction,
         Self::Sensor,
+        Self::Contact,
     ];
 
     /// The name of its statement.
@@ -81,6 +84,7 @@ impl Switchable {
             Self::Beam => "BEAM",
             Self::Friction => "FRICTION",
             Self::Sensor => "SENSOR",
+            Self::Contact => "CONTACT",
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The whole model.
 
 use super::{
-    Beam, Bushing, Coupler, DifferentialEquation, Elements, Equilibrium, Field, Friction, Gear,
-    GeneralConstraint, Graphics, InitialConditions, Integrator, Joint, JointPrimitive, Kinematics,
-    Marker, Motion, OutputOptions, Part, PlantPort, PointMass, Preferences, Request,
+    Beam, Bushing, Contact, Coupler, DifferentialEquation, Elements, Equilibrium, Field, Friction,
+    Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint, JointPrimitive,
+    Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass, Preferences, Request,
     ResultsOptions, Sensor, SingleForce, Spline, SpringDamper, Switchable, Units, Variable,
     VectorForce,
 };
@@ -56,6 +56,8 @@ pub struct Dataset {
     pub fields: Elements<Field>,
     /// BEAM.
     pub beams: Elements<Beam>,
+    /// CONTACT, none of which is simulated.
+    pub contacts: Elements<Contact>,
     /// SPLINE.
     pub splines: Elements<Spline>,
     /// VARIABLE.

@@ -118,6 +118,7 @@ elements!(
     super::Bushing,
     super::Field,
     super::Beam,
+    super::Contact,
     super::Variable,
     super::DifferentialEquation,
     super::PlantPort,

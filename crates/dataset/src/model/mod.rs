@@ -5,6 +5,7 @@
 
 mod activity;
 mod commands;
+mod contact;
 mod coupler;
 mod dataset;
 mod differential;
@@ -28,6 +29,7 @@ pub use commands::{
     Change, ChangeKind, Command, CommandFile, CommandKind, Eigensolution, FrictionArguments,
     Simulate, SimulationKind,
 };
+pub use contact::{Contact, ContactFriction, ContactLaw};
 pub use coupler::{CoupledFreedom, Coupler, Gear};
 pub use dataset::Dataset;
 pub use differential::DifferentialEquation;

@@ -1,5 +1,6 @@
 //! The statements of the language: one table, and one reader for each that is simulated.
 
+mod contact;
 mod coupler;
 mod differential;
 mod elastic;

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use super::{
-    coupler, differential, elastic, force, friction, joint, motion, part, request, sensor,
+    contact, coupler, differential, elastic, force, friction, joint, motion, part, request, sensor,
     settings, spline, units, variable, vector_force,
 };
 use crate::keywords::Keyword;
@@ -16,8 +16,8 @@ pub(crate) enum Action {
     Read(Option<&'static [Keyword]>, fn(&mut Reading, &mut Builder)),
     /// It cannot change the motion: a warning with the reason.
     Ignored(&'static str),
-    /// It is refused.
-    Unsupported,
+    /// It is refused; what to write instead.
+    Unsupported(&'static str),
 }
 
 /// A statement of the language.
@@ -62,11 +62,11 @@ const fn ignored(full: &'static str, reason: &'static str) -> Rule {
     }
 }
 
-const fn unsupported(full: &'static str, least: &'static str) -> Rule {
+const fn unsupported(full: &'static str, least: &'static str, instead: &'static str) -> Rule {
     Rule {
         name: Name { full, least },
         identified: false,
-        action: Action::Unsupported,
+        action: Action::Unsupported(instead),
     }
 }
 
@@ -75,6 +75,19 @@ const DATA: &str = "nothing that is simulated can use it";
 
 const INTEGRATOR: &str = "write its arguments in INTEGRATOR";
 const ONLY_REPORTS: &str = "it only reports distances";
+
+/// What to write instead of statements that are refused.
+const FLEXIBLE: &str =
+    "make the part rigid (PART with its mass and inertia), or a chain of parts and BEAMs";
+const FORCES: &str = "write it as BEAMs, FIELDs or GFORCEs between pairs of markers";
+const LIKE: &str = "a BUSHING or a FIELD with the stiffness at the operating point comes near";
+const SURFACES: &str = "write a GCON on the distance of two markers, or a joint";
+const PROGRAM: &str = "what another program computes is not read; write forces as functions";
+const STATES: &str = "write a DIFF for each state and a VARIABLE for each output";
+const SUBROUTINE_STATES: &str =
+    "subroutines are not called; write a DIFF for each state and a VARIABLE for each output";
+const TIRES: &str = "write the force as a GFORCE with functions";
+const CONSTRAINTS: &str = "write it as a GCON with a function";
 
 /// Every statement of the language.
 pub(crate) const STATEMENTS: &[Rule] = &[
@@ -122,6 +135,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     read("BUSHING", "BU", elastic::BUSHING_KEYWORDS, elastic::bushing),
     read("FIELD", "FI", elastic::FIELD_KEYWORDS, elastic::field),
     read("BEAM", "BE", elastic::BEAM_KEYWORDS, elastic::beam),
+    read("CONTACT", "CON", contact::KEYWORDS, contact::contact),
     read("SPLINE", "SPL", spline::KEYWORDS, spline::spline),
     read("VARIABLE", "VAR", variable::KEYWORDS, variable::variable),
     read(
@@ -218,20 +232,19 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         "MREQUEST",
         "it only reports; write a REQUEST for each element",
     ),
-    unsupported("ADAMS_BUSHING", "ADAMS_BUSHING"),
-    unsupported("CONTACT", "CON"),
-    unsupported("CVCV", "CVCV"),
-    unsupported("EXTERNAL_SYSTEM", "EXT"),
-    unsupported("FE_LOAD", "FE_L"),
-    unsupported("FE_NODE", "FE_N"),
-    unsupported("FE_PART", "FE_P"),
-    unsupported("FLEX_BODY", "FL"),
-    unsupported("GSE", "GS"),
-    unsupported("LSE", "LSE"),
-    unsupported("MFORCE", "MF"),
-    unsupported("NFORCE", "NF"),
-    unsupported("PTCV", "PT"),
-    unsupported("TFSISO", "TF"),
-    unsupported("TIRE", "TIRE"),
-    unsupported("UCON", "UC"),
+    unsupported("ADAMS_BUSHING", "ADAMS_BUSHING", LIKE),
+    unsupported("CVCV", "CVCV", SURFACES),
+    unsupported("EXTERNAL_SYSTEM", "EXT", PROGRAM),
+    unsupported("FE_LOAD", "FE_L", FLEXIBLE),
+    unsupported("FE_NODE", "FE_N", FLEXIBLE),
+    unsupported("FE_PART", "FE_P", FLEXIBLE),
+    unsupported("FLEX_BODY", "FL", FLEXIBLE),
+    unsupported("GSE", "GS", SUBROUTINE_STATES),
+    unsupported("LSE", "LSE", STATES),
+    unsupported("MFORCE", "MF", FLEXIBLE),
+    unsupported("NFORCE", "NF", FORCES),
+    unsupported("PTCV", "PT", SURFACES),
+    unsupported("TFSISO", "TF", STATES),
+    unsupported("TIRE", "TIRE", TIRES),
+    unsupported("UCON", "UC", CONSTRAINTS),
 ];

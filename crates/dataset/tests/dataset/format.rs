@@ -72,7 +72,7 @@ fn a_command_that_fits_stands_on_one_line() {
 
 #[test]
 fn what_is_not_known_keeps_its_lines() {
-    let text = "CONTACT/1\n, TYPE=SOLID_TO_SOLID , IGEOM=1\n,JGEOM=2\nMADE_UP/7, A =  1\n\
+    let text = "MFORCE/1\n, TYPE=SOLID_TO_SOLID , IGEOM=1\n,JGEOM=2\nMADE_UP/7, A =  1\n\
                 , B=2 ! why\nEND\nand so on\n";
     assert_eq!(dataset(text), text);
 }

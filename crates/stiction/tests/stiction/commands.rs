@@ -288,4 +288,32 @@ fn a_spline_with_errors_is_reported_where_it_stands() {
         let message = crate::shared::refusal(&text);
         assert!(message.contains("model.adm:10:"), "{spline}: {message}");
     }
+/// A contact is refused where a simulation would meet it, and nowhere else.
+#[test]
+fn contacts_are_refused_unless_they_are_deactivated() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("contact-input");
+    std::fs::create_dir_all(&folder).unwrap();
+    let contact = "CONTACT/7, IGEOM=1, JGEOM=2, IMPACT, STIFFNESS=1E5, DAMPING=10, DMAX=0.1\n\
+                   , EXPONENT=2.2, COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1\n\
+                   , STICTION_TRANSITION_VELOCITY=0.1, FRICTION_TRANSITION_VELOCITY=0.2\nEND";
+    let model = SLIDER.replace("END", contact);
+    std::fs::write(folder.join("slider.adm"), model).unwrap();
+    let told = |name: &str, commands: &str| {
+        let file = folder.join(name);
+        std::fs::write(&file, commands).unwrap();
+        let project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
+        stiction::Session::new(&project).map_or_else(|error| error.to_string(), |_| String::new())
+    };
+    let run = "SIMULATE/DYNAMIC, END=1, STEPS=4\n";
+    let text = told("acting.acf", &format!("\nFILE/MODEL=slider\n{run}"));
+    assert!(text.contains("slider.adm:10:1: error"), "{text}");
+    assert!(text.contains("DEACTIVATE/CONTACT, ID = 7"), "{text}");
+    let off = format!("\nFILE/MODEL=slider\nDEACTIVATE/CONTACT, ID=7\n{run}");
+    assert_eq!(told("off.acf", &off), "");
+    let again = format!("{off}ACTIVATE/CONTACT, RANGE=1, 9\nSIMULATE/DYNAMIC, END=2, STEPS=4\n");
+    assert!(told("again.acf", &again).contains("CONTACT/7 acts here"));
+    let alone = Project::load(&folder.join("slider.adm")).unwrap();
+    let error = stiction::check(&alone).unwrap_err().to_string();
+    assert!(error.contains("CONTACT/7 acts here"), "{error}");
+    assert!(alone.simulation().is_err());
 }
