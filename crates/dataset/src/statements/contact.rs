@@ -39,7 +39,7 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     ROUTINE,
 ];
 
-/// COULOMB_FRICTION.
+/// `COULOMB_FRICTION`.
 const FRICTION: [(&str, Option<bool>); 3] = [
     ("OFF", None),
     ("ON", Some(false)),
