@@ -59,7 +59,8 @@ const BY_STATE: Weights = Weights { state: 1.0, ..NONE };
 
 impl System {
     /// The derivatives at an instant that has been solved, with the `rates` of velocities and states
-    /// found there. `None` where algebraic variables are not determined.
+    /// found there. `None` where algebraic variables are not determined, or where the rate of a
+    /// state depends on a reaction.
     pub(super) fn derivatives(
         &mut self,
         state: &State,
@@ -103,15 +104,19 @@ impl System {
         }
         self.add_function_stiffness(multipliers, &mut position);
         let states = n - moving;
+        // Variables may read reactions, and forces those variables.
+        let by_multiplier = -rest(&by_rate, n, self.row_count());
+        let of_states = by_multiplier.rows(moving, states);
+        if of_states.iter().any(|slope| *slope != 0.0) {
+            return None;
+        }
         Some(Derivatives {
             mass: motions(&by_rate),
             velocity,
             position,
             state: rest(&by_state, moving, states),
             state_rate: rest(&by_rate, moving, states),
-            by_multiplier: -by_rate
-                .view((0, n), (moving, self.row_count()))
-                .into_owned(),
+            by_multiplier: by_multiplier.rows(0, moving).into_owned(),
         })
     }
 

@@ -119,9 +119,11 @@ impl Simulation {
         let Some((coordinates, parts, basis, left)) = found else {
             return Err(RunError {
                 time: self.state.time,
-                message: "constraints depend on one another here, or friction on the reactions so \
-                          that they are not unique; the model cannot be linearised"
-                    .to_owned(),
+                message:
+                    "constraints depend on one another here, friction on the reactions so that \
+                          they are not unique, or the rate of a state on a reaction; the model \
+                          cannot be linearised"
+                        .to_owned(),
                 element: None,
                 jammed: false,
             });

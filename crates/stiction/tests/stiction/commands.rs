@@ -288,6 +288,8 @@ fn a_spline_with_errors_is_reported_where_it_stands() {
         let message = crate::shared::refusal(&text);
         assert!(message.contains("model.adm:10:"), "{spline}: {message}");
     }
+}
+
 /// A contact is refused where a simulation would meet it, and nowhere else.
 #[test]
 fn contacts_are_refused_unless_they_are_deactivated() {
