@@ -19,7 +19,9 @@ use crate::wrenches::Wrenches;
 
 /// A residual above this part of the energy exchanged is worth a warning: ten times what runs with
 /// the default error stay below.
-pub(crate) const SUSPICIOUS: f64 = 1e-3;
+const SUSPICIOUS: f64 = 1e-3;
+/// A residual below this part of the energy that is there is rounding, however little is exchanged.
+const ROUNDING: f64 = 1e-12;
 
 /// An energy of the model over a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,6 +75,17 @@ impl EnergyBalance {
         } else {
             0.0
         }
+    }
+}
+
+impl EnergyBalance {
+    /// Whether more is unaccounted for than good runs leave.
+    pub(crate) fn is_suspicious(&self) -> bool {
+        let terms = [&self.kinetic, &self.weight, &self.stored];
+        let present = terms.map(|term| term.start.abs().max(term.end.abs()));
+        let present = present.into_iter().fold(0.0, f64::max);
+        let residual = self.residual().abs();
+        residual > SUSPICIOUS * self.exchanged && residual > ROUNDING * present
     }
 }
 

@@ -9,7 +9,7 @@ use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
 use results::{DataKind, MessageWriter, StepRow};
 
 use crate::about::about;
-use crate::balance::{EnergyBalance, SUSPICIOUS};
+use crate::balance::EnergyBalance;
 use crate::defaults::defaults_in_use;
 use crate::lower::APPLIED;
 use crate::message::Message;
@@ -345,7 +345,7 @@ impl<'p, W: Write> Journal<'p, W> {
     pub(crate) fn balance(&mut self, balance: &EnergyBalance) -> Result<(), OutputError> {
         let unit = &balance.unit;
         self.note(&format!("\nEnergy balance ({unit}):\n{balance}\n"))?;
-        if balance.residual_share() > SUSPICIOUS {
+        if balance.is_suspicious() {
             let text = format!(
                 "the energy balance of the run does not close: {:.1e} of the energy exchanged is \
                  unaccounted for; a smaller error of the INTEGRATOR makes the results better",

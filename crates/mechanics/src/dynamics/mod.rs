@@ -422,7 +422,8 @@ impl Dynamics {
             .write_powers(&self.multipliers, &mut self.powers);
         let range = self.state.work_range();
         let works = &mut self.state.values[range];
-        self.quadrature.works(step.time, &self.powers, works);
+        self.quadrature
+            .works(step.time, step.order, &self.powers, works);
     }
 
     fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
