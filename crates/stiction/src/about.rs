@@ -11,6 +11,7 @@ fn span_of(dataset: &Dataset, element: &Label) -> Option<Span> {
         "POINT_MASS" => &dataset.point_masses.by_id(id)?.header,
         "JOINT" => &dataset.joints.by_id(id)?.header,
         "JPRIM" => &dataset.primitives.by_id(id)?.header,
+        "MARKER" => &dataset.markers.by_id(id)?.header,
         "MOTION" => &dataset.motions.by_id(id)?.header,
         "GCON" => &dataset.constraints.by_id(id)?.header,
         "COUPLER" => &dataset.couplers.by_id(id)?.header,
@@ -23,6 +24,10 @@ fn span_of(dataset: &Dataset, element: &Label) -> Option<Span> {
         "BUSHING" => &dataset.bushings.by_id(id)?.header,
         "FIELD" => &dataset.fields.by_id(id)?.header,
         "BEAM" => &dataset.beams.by_id(id)?.header,
+        "VARIABLE" => &dataset.variables.by_id(id)?.header,
+        "DIFF" => &dataset.differentials.by_id(id)?.header,
+        "SENSOR" => &dataset.sensors.by_id(id)?.header,
+        "REQUEST" => &dataset.requests.by_id(id)?.header,
         "FRICTION" => &dataset.frictions.by_id(id)?.header,
         _ => return None,
     };
