@@ -1,7 +1,7 @@
 //! Commands that change the model, and what they do to a [`Dataset`].
 
 pub(crate) use crate::statements::{
-    EQUILIBRIUM_KEYWORDS, GFORCE_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, MOTION_KEYWORDS,
+    EQUILIBRIUM_KEYWORDS, GFORCE_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS,
     PREFERENCES_KEYWORDS, SFORCE_KEYWORDS, VARIABLE_KEYWORDS, VFORCE_KEYWORDS, VTORQUE_KEYWORDS,
 };
 
@@ -37,7 +37,7 @@ pub fn parse_change(source: &Source) -> (Option<Change>, Vec<Diagnostic>) {
         let command = read_command(&tree, statement, &mut Vec::new(), &mut diagnostics);
         match command.map(|command| command.kind) {
             Some(CommandKind::Change(found)) => {
-                if matches!(found.kind, ChangeKind::Friction { list: true, .. }) {
+                if found.kind.lists() {
                     let message = "LIST writes to the message file of a run";
                     diagnostics
                         .error(Code::InvalidChange, found.span, message)
@@ -70,7 +70,7 @@ pub(crate) fn change(reading: &Reading, kind: ChangeKind) -> CommandKind {
 }
 
 /// Refuses the arguments that a command cannot change.
-fn fixed(reading: &mut Reading, keywords: &[&'static str]) {
+pub(crate) fn fixed(reading: &mut Reading, keywords: &[&'static str]) {
     for keyword in keywords {
         if reading.has(keyword) {
             let message = format!("a command cannot change {keyword} of {}", reading.label());
@@ -83,7 +83,7 @@ fn fixed(reading: &mut Reading, keywords: &[&'static str]) {
 }
 
 /// Reports a command without arguments.
-fn something(reading: &mut Reading) {
+pub(crate) fn something(reading: &mut Reading) {
     if reading.is_empty() {
         let message = format!("{} gives nothing to change", reading.label());
         reading
@@ -143,34 +143,6 @@ fn components(reading: &mut Reading, kind: Switchable) -> CommandKind {
         components: Box::new(statements::components(reading)),
     };
     change(reading, kind)
-}
-
-/// MOTION as a command.
-pub(crate) fn motion(reading: &mut Reading) -> Option<CommandKind> {
-    const FIXED: [&str; 16] = [
-        "JOINT",
-        "I",
-        "J",
-        "ROTATIONAL",
-        "TRANSLATIONAL",
-        "X",
-        "Y",
-        "Z",
-        "B1",
-        "B2",
-        "B3",
-        "DISPLACEMENT",
-        "VELOCITY",
-        "ACCELERATION",
-        "ICDISP",
-        "ICVEL",
-    ];
-    fixed(reading, &FIXED);
-    let kind = ChangeKind::Motion {
-        id: reading.id,
-        function: reading.required_expression("FUNCTION"),
-    };
-    Some(change(reading, kind))
 }
 
 /// The arguments of FRICTION as a command: those of the statement and LIST.
@@ -345,12 +317,7 @@ impl Dataset {
                     }
                 }
             }
-            ChangeKind::Motion { id, function } => {
-                self.motions.position(*id)?;
-                if checks::expression(self, function, diagnostics) {
-                    self.motions.by_id_mut(*id)?.function = function.clone();
-                }
-            }
+            ChangeKind::Amendment(amendment) => self.amend(amendment, change, diagnostics)?,
             ChangeKind::Friction { id, arguments, .. } => {
                 let friction = self.frictions.by_id_mut(*id)?;
                 friction.take(arguments);
@@ -397,11 +364,24 @@ impl Dataset {
 }
 
 impl ChangeKind {
+    /// Whether it asks for the statement to be printed.
+    #[must_use]
+    pub fn lists(&self) -> bool {
+        match self {
+            Self::Friction { list, .. } => *list,
+            Self::Amendment(amendment) => amendment.list,
+            _ => false,
+        }
+    }
+
     /// Whether it changes the model, rather than how it is solved or what is printed.
     #[must_use]
     pub fn is_of_model(&self) -> bool {
         match self {
             Self::Integrator(_) | Self::Equilibrium(_) | Self::Preferences(_) => false,
+            Self::Amendment(amendment) => {
+                amendment.statement != "SENSOR" && !amendment.arguments.is_empty()
+            }
             Self::Friction { arguments, .. } => **arguments != FrictionArguments::default(),
             Self::Activity(activity) => activity.kind != Switchable::Sensor,
             _ => true,
@@ -417,7 +397,7 @@ impl Change {
             ChangeKind::Variable { id, .. } => ("VARIABLE", id),
             ChangeKind::SingleForce { id, .. } => ("SFORCE", id),
             ChangeKind::VectorForce { kind, id, .. } => (kind.statement(), id),
-            ChangeKind::Motion { id, .. } => ("MOTION", id),
+            ChangeKind::Amendment(ref amendment) => (amendment.statement, amendment.id),
             ChangeKind::Friction { id, .. } => ("FRICTION", id),
             ChangeKind::Integrator(_) => ("INTEGRATOR", 0),
             ChangeKind::Equilibrium(_) => ("EQUILIBRIUM", 0),

@@ -21,6 +21,7 @@
 //! | a malformed file and its message | `tests/cases` |
 
 mod activity;
+mod amendment;
 mod arguments;
 mod change;
 mod checks;

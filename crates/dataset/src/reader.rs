@@ -3,7 +3,7 @@
 use crate::checks;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::lints;
-use crate::model::Dataset;
+use crate::model::{Dataset, Texts};
 use crate::names::{self, Match, Name};
 use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
@@ -75,6 +75,7 @@ fn read(
             .help("the first line is the title; statements follow it");
         return (builder.dataset, diagnostics.finish());
     }
+    builder.dataset.texts = Texts::new(source.text());
     let mut buffer = Vec::new();
     for statement in &tree.statements {
         items(&tree, statement, &mut buffer);
@@ -113,7 +114,7 @@ fn title(source: &Source, tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> S
     text.trim_end().to_string()
 }
 
-fn read_statement(
+pub(crate) fn read_statement(
     tree: &SyntaxTree,
     statement: &StatementTokens,
     items: &[Item],

@@ -75,6 +75,11 @@ impl<'a, 's> Reading<'a, 's> {
         }
     }
 
+    /// All arguments, in the order of the statement.
+    pub(crate) fn arguments(&self) -> &[Argument] {
+        &self.arguments
+    }
+
     pub(crate) fn argument(&self, keyword: &str) -> Option<&Argument> {
         self.arguments
             .iter()

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 use std::time::Instant;
 
-use dataset::{Change, ChangeKind, Code, CommandKind, Dataset, Simulate, SimulationKind};
+use dataset::{Change, Code, CommandKind, Dataset, Simulate, SimulationKind};
 use mechanics::{Assembly, AssemblyError, Ending, Simulation};
 use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
 
@@ -244,10 +244,14 @@ impl<'a> Runner<'a> {
                 self.instant = Recorded::Nothing;
             }
         }
-        let ChangeKind::Friction { id, list: true, .. } = change.kind else {
+        if !change.kind.lists() {
             return Ok(());
+        }
+        let text = match change.target() {
+            ("FRICTION", id) => listing::friction(&self.dataset, id),
+            (statement, id) => self.dataset.text_of(statement, id),
         };
-        if let Some(text) = listing::friction(&self.dataset, id) {
+        if let Some(text) = text {
             self.log.note(&text)?;
         }
         Ok(())

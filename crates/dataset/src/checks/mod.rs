@@ -11,6 +11,7 @@ pub(crate) use expressions::{check as expression, named_markers};
 pub(crate) use friction::unused_arguments;
 
 use crate::diagnostic::{Code, Diagnostics};
+use crate::model::Dataset;
 use crate::source::Span;
 use crate::statements::Builder;
 
@@ -19,9 +20,14 @@ pub(crate) fn model(builder: &Builder, diagnostics: &mut Diagnostics) {
     let dataset = &builder.dataset;
     ground(builder, diagnostics);
     references::check(builder, diagnostics);
+    elements(dataset, diagnostics);
+    friction::check(builder, diagnostics);
+}
+
+/// Reports what is wrong with connections and expressions.
+pub(crate) fn elements(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     connections::check(dataset, diagnostics);
     expressions::check_all(dataset, diagnostics);
-    friction::check(builder, diagnostics);
 }
 
 /// Exactly one part is the ground.

@@ -69,7 +69,7 @@ pub(crate) fn report(
     error.help = near.map(|near| format!("the nearest is {name}/{near}"));
 }
 
-fn exists(dataset: &Dataset, target: Target, id: u32) -> bool {
+pub(crate) fn exists(dataset: &Dataset, target: Target, id: u32) -> bool {
     match target {
         Target::Part => dataset.parts.position(id).is_some(),
         Target::PointMass => dataset.point_masses.position(id).is_some(),

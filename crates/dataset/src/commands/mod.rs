@@ -10,9 +10,9 @@ use crate::names::{self, Match, Name};
 use crate::reader::{RawHead, find};
 use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
-use crate::statements::STATEMENTS;
+use crate::statements::{self, STATEMENTS};
 use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items, join};
-use crate::{activity, change};
+use crate::{activity, amendment, change};
 
 /// Reads a command file (`.acf`).
 ///
@@ -75,9 +75,30 @@ pub(crate) fn read_command(
     )?;
     let Some(rule) = COMMANDS.get(index) else {
         let name = only_statements().nth(index - COMMANDS.len())?.full;
-        let message = format!("stiction cannot change {name} by a command yet");
-        diagnostics.error(Code::UnsupportedStatement, raw.head, message);
-        return None;
+        let rule = STATEMENTS.iter().find(|rule| rule.name.full == name)?;
+        let keywords = match rule.action {
+            statements::Action::Read(Some(keywords), _) if amendment::can_amend(name) => keywords,
+            _ => {
+                let message = format!("stiction cannot change {name} by a command");
+                diagnostics
+                    .error(Code::UnsupportedStatement, raw.head, message)
+                    .help("change it in the dataset");
+                return None;
+            }
+        };
+        let span = tree.span(statement);
+        let head = Head {
+            name,
+            span,
+            head: raw.head,
+            id: raw.id(name, true, diagnostics),
+            view_name: None,
+        };
+        let keywords = &amendment::with_list(keywords);
+        let mut reading = Reading::new(head, &buffer[raw.rest..], Some(keywords), diagnostics);
+        let kind = amendment::amend(&mut reading, keywords)?;
+        let echo = join(diagnostics.source, buffer);
+        return Some(Command { kind, echo, span });
     };
     let name = rule.name.full;
     let (identified, keywords, read) = match rule.action {
@@ -250,13 +271,6 @@ const COMMANDS: &[Rule] = &[
         true,
         change::GFORCE_KEYWORDS,
         change::general_force,
-    ),
-    read(
-        "MOTION",
-        "MO",
-        true,
-        change::MOTION_KEYWORDS,
-        change::motion,
     ),
     read(
         "FRICTION",

@@ -149,13 +149,8 @@ pub enum ChangeKind {
         /// FX, FY, FZ, TX, TY and TZ; `None` leaves one as it is.
         components: Box<[Option<Expression>; 6]>,
     },
-    /// MOTION: a new function of the same level.
-    Motion {
-        /// Identifier.
-        id: u32,
-        /// FUNCTION.
-        function: Expression,
-    },
+    /// A statement that is read again with other arguments.
+    Amendment(Amendment),
     /// FRICTION.
     Friction {
         /// Identifier.
@@ -175,6 +170,19 @@ pub enum ChangeKind {
     Activity(Activity),
     /// ACCGRAV: components in the ground frame.
     Gravity([Option<f64>; 3]),
+}
+
+/// Other arguments for an element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Amendment {
+    /// The statement.
+    pub statement: &'static str,
+    /// Identifier.
+    pub id: u32,
+    /// Names of arguments, and the arguments as they are written.
+    pub arguments: Vec<(&'static str, String)>,
+    /// LIST: the statement, after the change, is to be printed.
+    pub list: bool,
 }
 
 /// The arguments given to a FRICTION, as a statement or as a command, with their places.

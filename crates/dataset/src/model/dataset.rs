@@ -4,7 +4,7 @@ use super::{
     Beam, Bushing, Contact, Coupler, DifferentialEquation, Elements, Equilibrium, Field, Friction,
     Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint, JointPrimitive,
     Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass, Preferences, Request,
-    ResultsOptions, Sensor, SingleForce, Spline, SpringDamper, Switchable, Units, Variable,
+    ResultsOptions, Sensor, SingleForce, Spline, SpringDamper, Switchable, Texts, Units, Variable,
     VectorForce,
 };
 use std::collections::BTreeSet;
@@ -92,6 +92,8 @@ pub struct Dataset {
     pub preferences: Option<Preferences>,
     /// What DEACTIVATE has switched off, by type and identifier; see [`Dataset::is_active`].
     pub inactive: BTreeSet<(Switchable, u32)>,
+    /// How its statements are written.
+    pub(crate) texts: Texts,
 }
 
 impl Dataset {

@@ -21,6 +21,8 @@ pub struct Header {
 pub trait Element {
     /// Identifier, name and place.
     fn header(&self) -> &Header;
+    /// The same, to be changed.
+    fn header_mut(&mut self) -> &mut Header;
 }
 
 /// The statements of one type, in the order of the file, with look-up by identifier.
@@ -97,6 +99,10 @@ macro_rules! elements {
         $(impl Element for $type {
             fn header(&self) -> &Header {
                 &self.header
+            }
+
+            fn header_mut(&mut self) -> &mut Header {
+                &mut self.header
             }
         })*
     };

@@ -20,14 +20,15 @@ mod request;
 mod sensor;
 mod settings;
 mod spline;
+mod texts;
 mod units;
 mod variable;
 mod vector_force;
 
 pub use activity::{Activity, Selection, Switchable};
 pub use commands::{
-    Change, ChangeKind, Command, CommandFile, CommandKind, Eigensolution, FrictionArguments,
-    Simulate, SimulationKind,
+    Amendment, Change, ChangeKind, Command, CommandFile, CommandKind, Eigensolution,
+    FrictionArguments, Simulate, SimulationKind,
 };
 pub use contact::{Contact, ContactFriction, ContactLaw};
 pub use coupler::{CoupledFreedom, Coupler, Gear};
@@ -53,6 +54,7 @@ pub use settings::{
     Kinematics, OutputOptions, Preferences, ResultsOptions,
 };
 pub use spline::{Spline, SplineCurve};
+pub(crate) use texts::Texts;
 pub use units::{ForceUnit, LengthUnit, MassUnit, TimeUnit, Units};
 pub use variable::{PlantPort, Variable};
 pub use vector_force::VectorForce;

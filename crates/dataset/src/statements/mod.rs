@@ -21,7 +21,7 @@ mod vector_force;
 pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
 pub(crate) use friction::arguments as friction_arguments;
-pub(crate) use motion::{KEYWORDS as MOTION_KEYWORDS, name_freedoms};
+pub(crate) use motion::name_freedoms;
 pub(crate) use settings::{
     EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, PREFERENCES_KEYWORDS, equilibrium, integrator,
     preferences,

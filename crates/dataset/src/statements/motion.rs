@@ -7,7 +7,7 @@ use crate::keywords::{INTERFACE, Keyword, Kind, ROUTINE, abbreviated, keyword};
 use crate::model::{JointKind, Motion, MotionDirection, MotionLevel, MotionTarget};
 use crate::reading::Reading;
 
-pub(crate) const KEYWORDS: &[Keyword] = &[
+pub(super) const KEYWORDS: &[Keyword] = &[
     keyword("JOINT", Kind::Id),
     keyword("I", Kind::Id),
     abbreviated("J", "J", Kind::Id),

@@ -293,3 +293,90 @@ fn simulations_are_read() {
     assert_eq!(file.commands[7].kind, CommandKind::Stop);
     assert_eq!(file.commands.len(), 8);
 }
+
+const AMENDED: &str = "Elements that commands give other arguments
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+JOINT/1, REVOLUTE, I=20, J=1
+JOINT/2, REVOLUTE, I=20, J=1
+MOTION/1, JOINT=1, ROTATIONAL, VELOCITY, ICDISP=0.5
+, FUNCTION=2*TIME +
+, 1
+BUSHING/3, I=20, J=1, K=1, 2, 3, KT=4, 5, 6, C=0.1, 0.1, 0.1, CT=0, 0, 0
+COUPLER/4, JOINTS=1, 2, TYPE=R:R, SCALES=1, -2
+DIFF/5, IC=1, FUNCTION=-DIF(5)
+SPLINE/6, X=0, 1, 2, 3, Y=0, 1, 4, 9
+SPRINGDAMPER/7, I=20, J=1, ROTATIONAL, KT=3, CT=0, ANGLE=10D
+SENSOR/8, GE, VALUE=1, ERROR=0.1, FUNCTION=TIME\\, RETURN
+GCON/9, FUNCTION=DX(20, 1)
+";
+
+#[test]
+fn statements_are_read_again_with_the_arguments_of_commands() {
+    let source = Source::from_text("model.adm", AMENDED.to_string());
+    let (before, diagnostics) = read_dataset(&source);
+    let errors = diagnostics
+        .iter()
+        .filter(|d| d.severity == dataset::Severity::Error);
+    assert_eq!(errors.count(), 0, "{diagnostics:?}");
+    let mut model = before.clone();
+    for change in [
+        "BUSHING/3, KT=7, 8, 9",
+        "BUSHING/3, C=1, 1, 1",
+        "MOTION/1, DISPLACEMENT, FUNCTION=3*TIME",
+        "COUPLER/4, SCALES=1, 5",
+        "DIFF/5, FUNCTION=-2*DIF(5)",
+        "SPLINE/6, Y=1, 1, 1, 1",
+        "SPRINGDAMPER/7, KT=5, ANGLE=20D",
+        "SENSOR/8, LE, VALUE=3",
+        "GCON/9, FUNCTION=DY(20, 1)",
+        "PART/2, MASS=5",
+        "POINT_MASS/1, MASS=5",
+    ] {
+        let expected = change
+            .starts_with("POINT")
+            .then_some("there is no POINT_MASS/1");
+        assert_eq!(apply(&mut model, change).as_deref(), expected, "{change}");
+    }
+    let bushing = &model.bushings[0];
+    assert_eq!(bushing.header, before.bushings[0].header);
+    let text = model.text_of("BUSHING", 3).unwrap();
+    assert!(
+        text.contains("K=1, 2, 3") && text.contains("KT=7, 8, 9"),
+        "{text}"
+    );
+    assert!(
+        text.contains("C=1, 1, 1") && !text.contains("0.1"),
+        "{text}"
+    );
+    let motion = model.text_of("MOTION", 1).unwrap();
+    assert!(
+        !motion.contains("ICDISP") && !motion.contains("VELOCITY"),
+        "{motion}"
+    );
+    assert_eq!(model.motions[0].function.text, "3*TIME");
+    assert_eq!(model.parts[1].mass, Some(5.0));
+    assert_ne!(model.sensors, before.sensors);
+    assert_ne!(model.splines, before.splines);
+    // What is wrong leaves everything as it is.
+    for (change, expected) in [
+        ("BUSHING/4, K=1, 1, 1", "there is no BUSHING/4"),
+        ("MOTION/1, FUNCTION=DX(99)", "there is no MARKER/99"),
+        ("PART/2, MASS=-1", "MASS must be 0 or greater"),
+        ("BUSHING/3, J=20", "a command cannot change J of BUSHING/3"),
+        (
+            "MARKER/20, QP=1, 0, 0",
+            "stiction cannot change MARKER by a command",
+        ),
+    ] {
+        let kept = model.clone();
+        assert_eq!(
+            apply(&mut model, change).as_deref(),
+            Some(expected),
+            "{change}"
+        );
+        assert_eq!(model, kept, "{change}");
+    }
+}

@@ -15,7 +15,7 @@ use crate::assembly::{Assembly, AssemblyError};
 use crate::dynamics::{Dynamics, Scales};
 use crate::gain::GainWatch;
 use crate::instant::Instant;
-use crate::model::{Element, Model};
+use crate::model::{Element, Level, Model};
 use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::system::System;
@@ -132,7 +132,11 @@ impl Simulation {
             let free = |e: &Element| matches!(e, Element::Force(_) | Element::Friction(_));
             resting.filter(|element| !free(element)).collect()
         };
-        let same = constraints(&model) == constraints(self.model());
+        let levels = |model: &Model| -> Vec<Level> {
+            model.motions.iter().map(|motion| motion.level).collect()
+        };
+        let same = constraints(&model) == constraints(self.model())
+            && levels(&model) == levels(self.model());
         let rows = self.system.row_count();
         let same_active = model.inactive == self.model().inactive;
         if !(self.system.replace_model(model) && same_active) {

@@ -319,3 +319,35 @@ fn contacts_are_refused_unless_they_are_deactivated() {
     assert!(error.contains("CONTACT/7 acts here"), "{error}");
     assert!(alone.simulation().is_err());
 }
+
+/// The level of a motion changes between two simulations, as the command files of turbines do it, and
+/// the model is assembled again where the new function says.
+#[test]
+fn a_motion_changes_its_level_and_statements_are_listed() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("level-input");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("crank.adm"), CRANK).unwrap();
+    let commands = "\nFILE/MODEL=crank\nMOTION/1, VELOCITY, FUNCTION=2, ICDISP=0.5\n\
+                    SIM/TRA, END=1, STEPS=5\nMOTION/1, DISPLACEMENT, FUNCTION=3*TIME, LIST\n\
+                    SIM/TRA, END=2, STEPS=5\n";
+    let file = folder.join("level.acf");
+    std::fs::write(&file, commands).unwrap();
+    let project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
+    let (report, results, log) = run_with_log(&project, RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed);
+    let angle = results.column("PART_2_XFORM.PSI").unwrap();
+    // The first is integrated, with the ERROR of 1e-2 of its INTEGRATOR; the second follows from
+    // the constraint.
+    for (block, expected, tolerance) in [
+        ("kinematic_001", 2.5_f64, 1e-3),
+        ("kinematic_002", 6.0, 1e-11),
+    ] {
+        let found = results.block(block).unwrap().column(angle).last().unwrap();
+        let off = (found - expected).rem_euclid(std::f64::consts::TAU);
+        assert!(
+            off.min(std::f64::consts::TAU - off) < tolerance,
+            "{block}: {found}"
+        );
+    }
+    assert!(log.contains("  MOTION/1\n  , JOINT=1\n"), "{log}");
+}
