@@ -79,8 +79,10 @@ fn best<T>(runs: usize, mut run: impl FnMut() -> T) -> f64 {
     (0..runs)
         .map(|_| {
             let begin = Instant::now();
-            drop(black_box(run()));
-            begin.elapsed().as_secs_f64()
+            let result = black_box(run());
+            let seconds = begin.elapsed().as_secs_f64();
+            drop(result);
+            seconds
         })
         .fold(f64::INFINITY, f64::min)
 }

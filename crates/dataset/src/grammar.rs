@@ -22,6 +22,8 @@ pub(crate) enum Form {
 pub(crate) struct Grammar {
     /// Its full name.
     pub(crate) name: &'static str,
+    /// Whether it has an identifier, where that is known.
+    pub(crate) identified: Option<bool>,
     /// How its arguments are written.
     pub(crate) form: Form,
 }
@@ -40,18 +42,19 @@ pub(crate) fn grammar(language: Language, word: &str) -> Option<Grammar> {
 
 fn statement(index: usize) -> Grammar {
     let rule = &STATEMENTS[index];
-    let form = match rule.action {
-        Action::Read(Some(keywords), _) => Form::Table(keywords),
-        Action::Read(None, _) => Form::Free,
-        Action::Ignored(_) | Action::Unsupported(_) => Form::Unknown,
+    let (identified, form) = match rule.action {
+        Action::Read(Some(keywords), _) => (Some(rule.identified), Form::Table(keywords)),
+        Action::Read(None, _) => (Some(rule.identified), Form::Free),
+        Action::Ignored(_) | Action::Unsupported(_) => (None, Form::Unknown),
     };
     Grammar {
         name: rule.name.full,
+        identified,
         form,
     }
 }
+
 /// Every statement of a dataset.
-pub(crate) fn statements() -> impl Iterator<Item = (Grammar, bool)> {
-    let identified = |index: usize| STATEMENTS[index].identified;
-    (0..STATEMENTS.len()).map(move |index| (statement(index), identified(index)))
+pub(crate) fn statements() -> impl Iterator<Item = Grammar> {
+    (0..STATEMENTS.len()).map(statement)
 }

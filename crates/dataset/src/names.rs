@@ -23,29 +23,30 @@ pub(crate) enum Match {
 /// Finds the name that `word` means: itself, else the only name that starts with it, else the
 /// only one of these whose least abbreviation is no longer than the word.
 pub(crate) fn find(word: &str, names: impl Iterator<Item = Name> + Clone) -> Match {
+    let word = word.as_bytes();
     let starts = |name: &Name| {
-        let bytes = name.full.as_bytes();
-        bytes.len() >= word.len() && bytes[..word.len()].eq_ignore_ascii_case(word.as_bytes())
+        let start = name.full.as_bytes().get(..word.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(word))
     };
-    let mut found = names.clone().enumerate().filter(|(_, name)| starts(name));
-    let Some((first, name)) = found.next() else {
-        return Match::None;
-    };
-    let others: Vec<(usize, Name)> = found.collect();
-    if name.full.len() == word.len() || others.is_empty() {
-        return Match::One(first);
+    let found = || names.clone().enumerate().filter(|(_, name)| starts(name));
+    let mut first = None;
+    let mut several = false;
+    for (index, name) in found() {
+        if name.full.len() == word.len() {
+            return Match::One(index);
+        }
+        several |= first.is_some();
+        first = first.or(Some(index));
     }
-    if let Some((exact, _)) = others
-        .iter()
-        .find(|(_, name)| name.full.len() == word.len())
-    {
-        return Match::One(*exact);
+    match first {
+        None => return Match::None,
+        Some(index) if !several => return Match::One(index),
+        Some(_) => {}
     }
-    let all = || std::iter::once((first, name)).chain(others.iter().copied());
-    let mut allowed = all().filter(|(_, name)| word.len() >= name.least.len());
+    let mut allowed = found().filter(|(_, name)| word.len() >= name.least.len());
     match (allowed.next(), allowed.next()) {
         (Some((index, _)), None) => Match::One(index),
-        _ => Match::Several(all().map(|(_, name)| name.full).collect()),
+        _ => Match::Several(found().map(|(_, name)| name.full).collect()),
     }
 }
 

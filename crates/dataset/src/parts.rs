@@ -8,6 +8,7 @@ use crate::reader::RawHead;
 use crate::source::Source;
 use crate::syntax::{Item, Language, TokenKind, join};
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// A statement or command in parts.
@@ -59,7 +60,7 @@ impl Parts {
                 part.items.start += head.rest;
                 part.items.end += head.rest;
             }
-            only_separators_between(items, head.rest, &parts).then_some(parts)
+            is_plain(items, head.rest, &parts).then_some(parts)
         });
         Some(Self {
             grammar,
@@ -69,12 +70,19 @@ impl Parts {
     }
 }
 
-/// Whether nothing is outside the arguments but what separates them.
-fn only_separators_between(items: &[Item], start: usize, parts: &[Part]) -> bool {
+/// Whether the arguments say all: nothing is outside them but what separates them, what is not read
+/// is at least a name with or without `= value`, and only rows of numbers are given several times.
+fn is_plain(items: &[Item], start: usize, parts: &[Part]) -> bool {
     let is_separator = |item: &Item| matches!(item.kind(), TokenKind::Comma | TokenKind::Backslash);
     let mut at = start;
+    let mut names = HashSet::new();
     for part in parts {
-        if !items[at..part.items.start].iter().all(is_separator) {
+        let is_row = matches!(part.kind, Some(Kind::RealsEach));
+        let behind = items[part.items.clone()].get(1);
+        let has_form =
+            part.value.is_some() || behind.is_none_or(|item| item.kind() == TokenKind::Equals);
+        let separated = items[at..part.items.start].iter().all(is_separator);
+        if !separated || !has_form || !(names.insert(part.name.as_ref()) || is_row) {
             return false;
         }
         at = part.items.end;
@@ -83,14 +91,10 @@ fn only_separators_between(items: &[Item], start: usize, parts: &[Part]) -> bool
 }
 
 impl Part {
-    /// The text behind the name of an argument whose value is not read: empty for a flag, without
-    /// the `=`. `None` where there is something else.
+    /// The text behind the `=` of an argument whose value is not read; `None` without `=`.
     pub(crate) fn text(&self, source: &Source, items: &[Item]) -> Option<String> {
-        match &items[self.items.start + 1..self.items.end] {
-            [] => Some(String::new()),
-            [equals, value @ ..] if equals.kind() == TokenKind::Equals => Some(join(source, value)),
-            _ => None,
-        }
+        let value = items.get(self.items.start + 2..self.items.end)?;
+        Some(join(source, value))
     }
 }
 

@@ -128,11 +128,11 @@ impl Parser<'_, '_> {
         let name_at = self.at;
         let span = self.span(name_at);
         self.at += 1;
-        let word = self.slice(name_at).to_string();
-        let keyword = match self.find(&word) {
+        let word = self.source.slice(span);
+        let keyword = match self.find(word) {
             Match::One(index) => self.keywords[index],
             Match::Several(fits) => {
-                let Some(keyword) = self.fitting(&word) else {
+                let Some(keyword) = self.fitting(word) else {
                     let message = format!("`{word}` can mean {}", fits.join(" or "));
                     self.diagnostics
                         .error(Code::AmbiguousName, span, message)
@@ -143,7 +143,7 @@ impl Parser<'_, '_> {
             }
             Match::None => {
                 let names = self.keywords.iter().map(|keyword| keyword.name.full);
-                let near = names::nearest(&word, names);
+                let near = names::nearest(word, names);
                 let found = self.source.excerpt(span);
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);

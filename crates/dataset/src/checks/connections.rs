@@ -3,14 +3,15 @@
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{Dataset, MarkerOwner, MotionTarget};
 use crate::source::Span;
+use std::fmt;
 
 /// Reports connections that cannot be made.
 pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     for joint in &dataset.joints {
-        let name = format!("JOINT/{}", joint.header.id);
+        let name = format_args!("JOINT/{}", joint.header.id);
         two_parts(
             dataset,
-            &name,
+            name,
             joint.i,
             joint.j,
             joint.header.span,
@@ -18,17 +19,17 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         );
     }
     for primitive in &dataset.primitives {
-        let name = format!("JPRIM/{}", primitive.header.id);
+        let name = format_args!("JPRIM/{}", primitive.header.id);
         let (i, j) = (primitive.i, primitive.j);
-        two_parts(dataset, &name, i, j, primitive.header.span, diagnostics);
+        two_parts(dataset, name, i, j, primitive.header.span, diagnostics);
     }
     for force in &dataset.single_forces {
-        let name = format!("SFORCE/{}", force.header.id);
-        two_markers(&name, force.i, force.j, force.header.span, diagnostics);
+        let name = format_args!("SFORCE/{}", force.header.id);
+        two_markers(name, force.i, force.j, force.header.span, diagnostics);
     }
     for spring in &dataset.spring_dampers {
-        let name = format!("SPRINGDAMPER/{}", spring.header.id);
-        two_markers(&name, spring.i, spring.j, spring.header.span, diagnostics);
+        let name = format_args!("SPRINGDAMPER/{}", spring.header.id);
+        two_markers(name, spring.i, spring.j, spring.header.span, diagnostics);
     }
     for (name, list) in [
         ("VFORCE", &dataset.vector_forces),
@@ -36,10 +37,10 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         ("GFORCE", &dataset.general_forces),
     ] {
         for force in list {
-            let name = format!("{name}/{}", force.header.id);
+            let name = format_args!("{name}/{}", force.header.id);
             two_parts(
                 dataset,
-                &name,
+                name,
                 force.i,
                 force.j_float,
                 force.header.span,
@@ -48,22 +49,16 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         }
     }
     for bushing in &dataset.bushings {
-        let name = format!("BUSHING/{}", bushing.header.id);
-        two_markers(
-            &name,
-            bushing.i,
-            bushing.j,
-            bushing.header.span,
-            diagnostics,
-        );
+        let name = format_args!("BUSHING/{}", bushing.header.id);
+        two_markers(name, bushing.i, bushing.j, bushing.header.span, diagnostics);
     }
     for field in &dataset.fields {
-        let name = format!("FIELD/{}", field.header.id);
-        two_markers(&name, field.i, field.j, field.header.span, diagnostics);
+        let name = format_args!("FIELD/{}", field.header.id);
+        two_markers(name, field.i, field.j, field.header.span, diagnostics);
     }
     for beam in &dataset.beams {
-        let name = format!("BEAM/{}", beam.header.id);
-        two_markers(&name, beam.i, beam.j, beam.header.span, diagnostics);
+        let name = format_args!("BEAM/{}", beam.header.id);
+        two_markers(name, beam.i, beam.j, beam.header.span, diagnostics);
     }
     couplers(dataset, diagnostics);
     gears(dataset, diagnostics);
@@ -72,7 +67,13 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
 }
 
 /// I and J are two markers. Returns whether they are.
-fn two_markers(name: &str, i: u32, j: u32, span: Span, diagnostics: &mut Diagnostics) -> bool {
+fn two_markers(
+    name: fmt::Arguments,
+    i: u32,
+    j: u32,
+    span: Span,
+    diagnostics: &mut Diagnostics,
+) -> bool {
     if i != j || i == 0 {
         return true;
     }
@@ -84,7 +85,7 @@ fn two_markers(name: &str, i: u32, j: u32, span: Span, diagnostics: &mut Diagnos
 /// I and J are on two parts.
 fn two_parts(
     dataset: &Dataset,
-    name: &str,
+    name: fmt::Arguments,
     i: u32,
     j: u32,
     span: Span,
@@ -114,7 +115,7 @@ fn two_parts(
 /// Coupled joints have the coordinates that are coupled.
 fn couplers(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     for coupler in &dataset.couplers {
-        let name = format!("COUPLER/{}", coupler.header.id);
+        let name = format_args!("COUPLER/{}", coupler.header.id);
         for freedom in &coupler.freedoms {
             let Some(joint) = dataset.joints.by_id(freedom.joint) else {
                 continue;
@@ -144,7 +145,7 @@ fn couplers(dataset: &Dataset, diagnostics: &mut Diagnostics) {
 fn gears(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     let owner = |id| dataset.markers.by_id(id).map(|marker| marker.owner);
     for gear in &dataset.gears {
-        let name = format!("GEAR/{}", gear.header.id);
+        let name = format_args!("GEAR/{}", gear.header.id);
         let span = gear.header.span;
         let Some(carrier) = owner(gear.cv) else {
             continue;
@@ -180,13 +181,13 @@ fn gears(dataset: &Dataset, diagnostics: &mut Diagnostics) {
 
 fn motions(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     for motion in &dataset.motions {
-        let name = format!("MOTION/{}", motion.header.id);
+        let name = format_args!("MOTION/{}", motion.header.id);
         let span = motion.header.span;
         let (id, freedom, rotation) = match motion.target {
             MotionTarget::JointRotation(id) => (id, "rotation", true),
             MotionTarget::JointTranslation(id) => (id, "translation", false),
             MotionTarget::Markers { i, j, .. } => {
-                two_parts(dataset, &name, i, j, span, diagnostics);
+                two_parts(dataset, name, i, j, span, diagnostics);
                 continue;
             }
         };

@@ -134,12 +134,14 @@ pub(crate) fn grammar(word: &str) -> Option<Grammar> {
         return None;
     };
     let rule = &COMMANDS[index];
+    let (identified, form) = match rule.action {
+        Action::Read(identified, keywords, _) => (Some(identified), Form::Table(keywords)),
+        Action::Ignored(_) | Action::Unsupported => (None, Form::Unknown),
+    };
     Some(Grammar {
         name: rule.name.full,
-        form: match rule.action {
-            Action::Read(_, keywords, _) => Form::Table(keywords),
-            Action::Ignored(_) | Action::Unsupported => Form::Unknown,
-        },
+        identified,
+        form,
     })
 }
 

@@ -3,12 +3,14 @@
 //! It is what the JSON form holds, and what must be the same before and after a text is laid out
 //! anew. It follows from the tables of statements and keywords alone.
 
+mod difference;
 mod number;
 mod reader;
 mod writer;
 
+pub(crate) use difference::difference;
 pub(crate) use number::Number;
-pub(crate) use reader::read;
+pub(crate) use reader::{read, text_of_lines};
 pub(crate) use writer::write;
 
 /// The statements of a dataset or command file.

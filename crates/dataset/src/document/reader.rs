@@ -113,7 +113,8 @@ impl Reader<'_> {
             Some(grammar) => grammar.name.to_string(),
             None => written.to_ascii_uppercase(),
         };
-        let identified = parts.head.number.is_some();
+        let known = parts.grammar.and_then(|grammar| grammar.identified);
+        let identified = known.unwrap_or(parts.head.number.is_some());
         let id = parts.head.id(&name, identified, &mut self.diagnostics);
         let view_name = match self.language {
             Language::Dataset => view_name(self.tree, statement, self.source),
@@ -168,7 +169,6 @@ impl Reader<'_> {
             match (arguments.get_mut(place), value) {
                 (None, value) => arguments.push((part.name.to_string(), value)),
                 (Some((_, Value::Rows(rows))), Value::Rows(more)) => rows.extend(more),
-                // Given twice, which only text can say.
                 (Some(_), _) => return None,
             }
         }
@@ -177,13 +177,8 @@ impl Reader<'_> {
 
     fn value(&self, part: &Part, items: &[Item]) -> Option<Value> {
         let Some(value) = &part.value else {
-            let text = part.text(self.source, items)?;
-            let has_value = part.items.len() > 1;
-            return Some(if has_value {
-                Value::Raw(text)
-            } else {
-                Value::Flag
-            });
+            let text = part.text(self.source, items);
+            return Some(text.map_or(Value::Flag, Value::Raw));
         };
         Some(match value {
             keywords::Value::Flag => Value::Flag,
@@ -217,8 +212,7 @@ impl Reader<'_> {
     /// The text behind the head of a statement, its lines trimmed.
     fn text(&self, statement: &StatementTokens, head: Span) -> String {
         let span = Span::new(head.end, self.tree.span(statement).end);
-        let lines: Vec<&str> = self.source.slice(span).lines().map(str::trim).collect();
-        lines.join("\n").trim().to_string()
+        text_of_lines(self.source.slice(span))
     }
 }
 
@@ -226,4 +220,11 @@ impl Reader<'_> {
 fn comment(text: &str) -> Option<String> {
     let text = text.strip_prefix('!').unwrap_or(text).trim_end();
     (!text.is_empty()).then(|| text.to_string())
+}
+
+/// A text without empty lines and without blanks at the ends of the others.
+pub(crate) fn text_of_lines(text: &str) -> String {
+    let lines = text.lines().map(str::trim);
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
+    lines.join("\n")
 }

@@ -311,24 +311,30 @@ impl Parser<'_> {
     }
 
     fn name(&mut self, item: Item) -> Parsed {
-        let name = self.slice(item).to_ascii_uppercase();
+        let name = self.source.slice(item.span());
         self.take();
         let open = self
             .peek()
             .filter(|next| next.kind() == TokenKind::LeftParenthesis);
         if let Some(open) = open {
-            return match Function::from_name(&name) {
+            return match Function::from_name(name) {
                 Some(function) => self.call(item, function, open),
-                None => Err(self.unknown(item, &name)),
+                None => Err(self.unknown(item, name)),
             };
         }
-        let root = match name.as_str() {
-            "TIME" => Expr::Time,
-            "MODE" => Expr::Mode,
-            "PI" => Expr::Number(std::f64::consts::PI),
-            "DTOR" => Expr::Number(std::f64::consts::PI / 180.0),
-            "RTOD" => Expr::Number(180.0 / std::f64::consts::PI),
-            _ => return Err(self.unknown(item, &name)),
+        let is = |constant: &str| name.eq_ignore_ascii_case(constant);
+        let root = if is("TIME") {
+            Expr::Time
+        } else if is("MODE") {
+            Expr::Mode
+        } else if is("PI") {
+            Expr::Number(std::f64::consts::PI)
+        } else if is("DTOR") {
+            Expr::Number(std::f64::consts::PI / 180.0)
+        } else if is("RTOD") {
+            Expr::Number(180.0 / std::f64::consts::PI)
+        } else {
+            return Err(self.unknown(item, name));
         };
         Ok((root, 1))
     }

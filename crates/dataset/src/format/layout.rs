@@ -245,7 +245,8 @@ impl Layout<'_> {
             let flag_follows = next.is_some_and(|next| !self.has(&next.tokens, TokenKind::Equals));
             // Only the start of a line ends a text before a flag.
             let text = matches!(segment.kind, Some(Kind::Text | Kind::Strings));
-            if self.has(&segment.tokens, TokenKind::Newline)
+            if segment.role == Role::Whole
+                || self.has(&segment.tokens, TokenKind::Newline)
                 || self.has(&behind, TokenKind::Comment)
                 || (text && flag_follows)
             {
@@ -287,6 +288,12 @@ impl Layout<'_> {
             let line = self.trimmed(from..to);
             from = to + 1;
             if line.is_empty() {
+                continue;
+            }
+            if segment.role == Role::Whole {
+                let span = |token: usize| self.tree.tokens[token].span();
+                let text = span(line.start).to(span(line.end - 1));
+                self.line(self.source.slice(text).trim());
                 continue;
             }
             let comment = Some(line.end - 1).filter(|last| self.kind(*last) == TokenKind::Comment);
@@ -331,8 +338,10 @@ impl Layout<'_> {
     ) -> (String, Vec<Piece<'_>>) {
         let mut at = tokens.start;
         let mut start = String::new();
-        let as_it_is = segment.kind.is_none() && segment.role != Role::Head
-            || matches!(segment.kind, Some(Kind::Text));
+        let as_it_is = match segment.kind {
+            None => segment.role == Role::Argument,
+            Some(kind) => matches!(kind, Kind::Text),
+        };
         if first && segment.role == Role::Argument {
             start.push_str(self.slice(at));
             let behind = self.trimmed(at + 1..tokens.end);
@@ -356,16 +365,18 @@ impl Layout<'_> {
             }
         }
         let numbers = segment.kind.is_some_and(Kind::is_numeric);
-        let keeps_blanks = several || segment.role == Role::Whole || as_it_is;
+        let keeps_blanks = several || as_it_is;
         let mut pieces: Vec<Piece> = Vec::with_capacity(tokens.end.saturating_sub(at));
-        let mut blank = "";
+        let mut end = None;
         for token in at..tokens.end {
             if self.kind(token) == TokenKind::Whitespace {
-                blank = self.slice(token);
                 continue;
             }
-            let before = pieces.last().map(|piece| piece.kind);
-            let before = match before {
+            let span = self.tree.tokens[token].span();
+            let blank = Span::new(end.unwrap_or(span.start), span.start);
+            let blank = self.source.slice(blank);
+            end = Some(span.end);
+            let before = match pieces.last().map(|piece| piece.kind) {
                 None => "",
                 Some(_) if segment.role == Role::Head => "",
                 Some(_) if keeps_blanks => blank,
@@ -373,7 +384,6 @@ impl Layout<'_> {
                 Some(_) if numbers || blank.is_empty() => "",
                 Some(_) => " ",
             };
-            blank = "";
             pieces.push(Piece {
                 text: self.slice(token),
                 kind: self.kind(token),

@@ -3,8 +3,8 @@
 mod layout;
 mod line;
 
-use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::document::{self, Document};
+use crate::diagnostic::Diagnostic;
+use crate::document;
 use crate::source::{Source, Span};
 use crate::syntax::{Language, SyntaxTree, TokenKind};
 
@@ -42,44 +42,12 @@ pub fn format(source: &Source, language: Language) -> Result<String, Vec<Diagnos
     let tree = SyntaxTree::new(source, language);
     let text = layout::text(source, &tree, language);
     let written = Source::from_text(source.name(), text);
-    match difference(source, &before, &written, language) {
-        Some(error) => Err(vec![error]),
-        None => Ok(written.text().to_string()),
+    let (after, errors) = document::read(&written, language);
+    let same = errors.is_empty() && before == after;
+    if same && comments(source, language) == comments(&written, language) {
+        return Ok(written.text().to_string());
     }
-}
-
-/// An error where the text that is written does not say what the document says. That is a defect
-/// of the layout, so nothing may be written then.
-pub(crate) fn difference(
-    source: &Source,
-    before: &Document,
-    written: &Source,
-    language: Language,
-) -> Option<Diagnostic> {
-    let (after, errors) = document::read(written, language);
-    let same = errors.is_empty() && *before == after;
-    if same && comments(source, language).eq(&comments(written, language)) {
-        return None;
-    }
-    let pairs = before.statements.iter().zip(&after.statements);
-    let place = pairs.take_while(|(before, after)| before == after).count();
-    let (name, id) = before
-        .statements
-        .get(place)
-        .map_or(("the end", None), |statement| {
-            (statement.name.as_str(), statement.id)
-        });
-    let label = id.map_or_else(|| name.to_string(), |id| format!("{name}/{id}"));
-    let message = format!("the layout would change what the file says at {label}");
-    let mut error = Diagnostic::new(
-        Severity::Error,
-        Code::Syntax,
-        source.name(),
-        Span::default(),
-        message,
-    );
-    error.help("nothing is written; please report this");
-    Some(error)
+    Err(vec![document::difference(source, &before, &after)])
 }
 
 /// All comments of a text, without blanks at their ends.

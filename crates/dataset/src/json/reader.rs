@@ -35,7 +35,7 @@ pub fn from_json(source: &Source) -> Result<String, Vec<Diagnostic>> {
         source,
         diagnostics: Diagnostics::new(source),
         grammars: grammar::statements()
-            .map(|(grammar, identified)| (grammar.name, (grammar, identified)))
+            .map(|grammar| (grammar.name, grammar))
             .collect(),
         document: Document::default(),
         places: Vec::new(),
@@ -57,8 +57,8 @@ pub fn from_json(source: &Source) -> Result<String, Vec<Diagnostic>> {
 struct Reader<'a> {
     source: &'a Source,
     diagnostics: Diagnostics<'a>,
-    /// The statements by their full names, and whether they have identifiers.
-    grammars: HashMap<&'static str, (Grammar, bool)>,
+    /// The statements by their full names.
+    grammars: HashMap<&'static str, Grammar>,
     document: Document,
     places: Vec<Places>,
 }
@@ -266,8 +266,7 @@ impl<'a> Reader<'a> {
             error.help = near.map(|near| format!("is {near:?} meant? names are written in full"));
             return;
         }
-        if let Some((grammar, identified)) = known
-            && !matches!(grammar.form, Form::Unknown)
+        if let Some(identified) = known.and_then(|grammar| grammar.identified)
             && identified != id.is_some()
         {
             let span = place(self.source, raw);
@@ -283,16 +282,13 @@ impl<'a> Reader<'a> {
         for (key, value, path) in others {
             argument_places.push(place(self.source, value));
             let form = match (known, &text) {
-                (Some((grammar, _)), None) => grammar.form,
+                (Some(grammar), None) => grammar.form,
                 _ => Form::Unknown,
             };
             arguments.extend(self.argument(&name, form, key, value, &path));
         }
         statement.body = match text {
-            Some(text) => {
-                let lines: Vec<&str> = text.lines().map(str::trim).collect();
-                Body::Text(lines.join("\n").trim().to_string())
-            }
+            Some(text) => Body::Text(document::text_of_lines(&text)),
             None => Body::Arguments(arguments),
         };
         statement.name = name;

@@ -16,10 +16,10 @@ pub fn json_schema() -> String {
     let mut definitions = definitions();
     let mut cases = Vec::new();
     let mut names = Vec::new();
-    for (grammar, identified) in grammar::statements() {
+    for grammar in grammar::statements() {
         let name = grammar.name;
         names.push(name);
-        definitions.insert(name.to_string(), statement(grammar, identified));
+        definitions.insert(name.to_string(), statement(grammar));
         cases.push(json!({
             "if": { "properties": { "statement": { "const": name } } },
             "then": reference(name),
@@ -142,7 +142,8 @@ fn text_only(description: &str) -> Value {
     })
 }
 
-fn statement(grammar: Grammar, identified: bool) -> Value {
+fn statement(grammar: Grammar) -> Value {
+    let identified = grammar.identified.unwrap_or(true);
     let keywords = match grammar.form {
         Form::Table(keywords) => keywords,
         Form::Free => {

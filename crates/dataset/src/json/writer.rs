@@ -38,14 +38,19 @@ use std::fmt::Write;
 /// ```
 ///
 /// # Errors
-/// The errors that leave open what the text says.
+/// The errors that leave open what the text says, and one for a text that would not come back the
+/// same.
 pub fn to_json(source: &Source) -> Result<String, Vec<Diagnostic>> {
     let (document, errors) = document::read(source, Language::Dataset);
-    if errors.is_empty() {
-        Ok(json(&document))
-    } else {
-        Err(errors)
+    if !errors.is_empty() {
+        return Err(errors);
     }
+    let written = Source::from_text(source.name(), document::write(&document));
+    let (after, errors) = document::read(&written, Language::Dataset);
+    if errors.is_empty() && document == after {
+        return Ok(json(&document));
+    }
+    Err(vec![document::difference(source, &document, &after)])
 }
 
 fn json(document: &Document) -> String {

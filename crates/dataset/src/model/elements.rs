@@ -1,6 +1,7 @@
 //! Identified statements and lists of them with look-up by identifier.
 
 use crate::source::Span;
+use foldhash::fast::RandomState;
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::Deref;
@@ -32,7 +33,7 @@ pub trait Element {
 #[derive(Clone, PartialEq)]
 pub struct Elements<T> {
     list: Vec<T>,
-    index: HashMap<u32, usize>,
+    index: HashMap<u32, usize, RandomState>,
 }
 
 impl<T: fmt::Debug> fmt::Debug for Elements<T> {
@@ -45,7 +46,7 @@ impl<T> Default for Elements<T> {
     fn default() -> Self {
         Self {
             list: Vec::new(),
-            index: HashMap::new(),
+            index: HashMap::default(),
         }
     }
 }

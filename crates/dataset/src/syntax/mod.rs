@@ -63,6 +63,9 @@ impl SyntaxTree {
     }
 }
 
+/// What a comment holds that names the statement behind it.
+const NAMES: &str = "adams_view_name";
+
 /// A statement ends at `;`, or at the end of a line unless that line ends in `&` or `,` or the
 /// next line that is neither blank nor comment starts with `,`.
 ///
@@ -72,6 +75,7 @@ fn statements(
     tokens: &[Token],
     language: Language,
 ) -> (Vec<StatementTokens>, Option<usize>) {
+    let finder = memchr::memmem::Finder::new(NAMES);
     let mut statements = Vec::new();
     let mut name_comment = None;
     let mut current: Option<StatementTokens> = None;
@@ -81,7 +85,8 @@ fn statements(
         match token.kind {
             TokenKind::Line | TokenKind::Whitespace => continue,
             TokenKind::Comment => {
-                if source.slice(token.span()).contains("adams_view_name") {
+                let comment = source.slice(token.span()).as_bytes();
+                if comment.len() > NAMES.len() && finder.find(comment).is_some() {
                     name_comment = Some(index);
                 }
                 continue;

@@ -149,7 +149,8 @@ impl Lexer<'_> {
     }
 
     fn line_end(&self) -> usize {
-        let end = self.run(self.at, |byte| byte != b'\n');
+        let rest = &self.bytes[self.at..];
+        let end = self.at + memchr::memchr(b'\n', rest).unwrap_or(rest.len());
         let carriage_returns = self.bytes[self.at..end]
             .iter()
             .rev()

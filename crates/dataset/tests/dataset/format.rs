@@ -71,6 +71,15 @@ fn a_command_that_fits_stands_on_one_line() {
 }
 
 #[test]
+fn damage_that_still_reads_is_laid_out() {
+    let part = "PART/3\n, ZG =  1.43E+00, -9.9E-01,  2.68&\n\n, XG = 1, 2, 3\nEND\n";
+    assert_eq!(
+        dataset(part),
+        "PART/3\n, ZG = 1.43E+00, -9.9E-01, 2.68\n, XG = 1, 2, 3\nEND\n"
+    );
+}
+
+#[test]
 fn what_is_not_known_keeps_its_lines() {
     let text = "MFORCE/1\n, TYPE=SOLID_TO_SOLID , IGEOM=1\n,JGEOM=2\nMADE_UP/7, A =  1\n\
                 , B=2 ! why\nEND\nand so on\n";

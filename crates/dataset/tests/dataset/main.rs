@@ -7,6 +7,7 @@ mod changes;
 mod corpus;
 mod forces;
 mod format;
+mod hostile;
 mod json;
 mod language;
 mod misuse;

@@ -5,7 +5,8 @@
 
 use crate::shared::models;
 use dataset::{
-    Diagnostic, Language, Source, SyntaxTree, parse_change, read_commands, read_dataset,
+    Diagnostic, Language, Source, SyntaxTree, format, from_json, parse_change, read_commands,
+    read_dataset, to_json,
 };
 
 /// Xorshift; the constant is that of Vigna's xorshift64*.
@@ -177,7 +178,43 @@ fn read_every_way(bytes: &[u8]) -> usize {
         }
     }
     let (_, diagnostics) = parse_change(&source);
-    count + check(&source, &diagnostics)
+    count += check(&source, &diagnostics);
+    for language in [Language::Dataset, Language::Commands] {
+        count += lay_out(&source, language);
+    }
+    match to_json(&source) {
+        Ok(json) => {
+            let json = Source::from_text("JSON", json);
+            if let Err(errors) = from_json(&json) {
+                panic!("{}", errors[0].render(&json));
+            }
+        }
+        Err(errors) => count += check(&source, &errors),
+    }
+    if let Err(errors) = from_json(&source) {
+        count += check(&source, &errors);
+    }
+    count
+}
+
+/// What can be laid out is stable; that it says the same is checked by [`format`] itself, which
+/// would refuse with an error that the readers do not find.
+fn lay_out(source: &Source, language: Language) -> usize {
+    match format(source, language) {
+        Ok(text) => {
+            let text = Source::from_text("laid out", text);
+            let again = format(&text, language);
+            assert_eq!(again.as_deref(), Ok(text.text()), "of {:?}", source.text());
+            0
+        }
+        Err(errors) => {
+            let lost = errors
+                .iter()
+                .find(|error| error.message.starts_with("what would be"));
+            assert!(lost.is_none(), "{lost:?} of {:?}", source.text());
+            check(source, &errors)
+        }
+    }
 }
 
 fn check(source: &Source, diagnostics: &[Diagnostic]) -> usize {
@@ -243,12 +280,12 @@ fn damaged_files_never_panic() {
     let originals = originals();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let start = std::time::Instant::now();
-    let count: usize = std::thread::scope(|scope| {
+    let (count, bytes) = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..threads)
             .map(|worker| {
                 let originals = &originals;
                 scope.spawn(move || {
-                    let mut count = 0;
+                    let (mut count, mut bytes) = (0, 0);
                     for index in (worker..wanted).step_by(threads) {
                         // Each text has its own seed, whatever the number of threads.
                         let seed = 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(index as u64 + 1);
@@ -256,19 +293,21 @@ fn damaged_files_never_panic() {
                         let mut text = originals[random.below(originals.len())].clone();
                         let other = &originals[random.below(originals.len())];
                         damage(&mut text, other, &mut random);
+                        bytes += text.len();
                         count += read_every_way(&text);
                     }
-                    count
+                    (count, bytes)
                 })
             })
             .collect();
         let counts = workers
             .into_iter()
             .map(|worker| worker.join().expect("no panic"));
-        counts.sum()
+        counts.fold((0, 0), |sum, next| (sum.0 + next.0, sum.1 + next.1))
     });
     println!(
-        "{wanted} damaged texts of {} originals, {count} messages, {:.1} s on {threads} threads",
+        "{wanted} damaged texts of {} originals, {bytes} bytes, {count} messages, none lost, \
+         {:.1} s on {threads} threads",
         originals.len(),
         start.elapsed().as_secs_f64()
     );
