@@ -81,8 +81,11 @@ fn is_plain(items: &[Item], start: usize, parts: &[Part]) -> bool {
         let behind = items[part.items.clone()].get(1);
         let has_form =
             part.value.is_some() || behind.is_none_or(|item| item.kind() == TokenKind::Equals);
+        // With the comma that starts the next line it would be one mark.
+        let last = items[part.items.end - 1].kind();
+        let open = matches!(last, TokenKind::Comma | TokenKind::Equals);
         let separated = items[at..part.items.start].iter().all(is_separator);
-        if !separated || !has_form || !(names.insert(part.name.as_ref()) || is_row) {
+        if open || !separated || !has_form || !(names.insert(part.name.as_ref()) || is_row) {
             return false;
         }
         at = part.items.end;

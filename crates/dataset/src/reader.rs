@@ -263,7 +263,9 @@ pub(crate) fn find(
                 .help("write more letters");
         }
         Match::None => {
-            let near = names::nearest(word, names.map(|name| name.full));
+            let near = (!diagnostics.is_full())
+                .then(|| names::nearest(word, names.map(|name| name.full)))
+                .flatten();
             let found = diagnostics.source.excerpt(span);
             let message = format!("no {what} is called {found}");
             diagnostics

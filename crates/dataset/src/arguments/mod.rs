@@ -143,7 +143,9 @@ impl Parser<'_, '_> {
             }
             Match::None => {
                 let names = self.keywords.iter().map(|keyword| keyword.name.full);
-                let near = names::nearest(word, names);
+                let near = (!self.diagnostics.is_full())
+                    .then(|| names::nearest(word, names))
+                    .flatten();
                 let found = self.source.excerpt(span);
                 let message = format!("{} has no argument {found}", self.statement);
                 let error = self.diagnostics.error(Code::UnknownArgument, span, message);

@@ -78,6 +78,11 @@ impl<'a> Diagnostics<'a> {
         self.overflow.insert(Box::new(diagnostic))
     }
 
+    /// Whether further messages are only counted, so that nobody needs to know what was meant.
+    pub(crate) fn is_full(&self) -> bool {
+        self.list.len() >= MOST
+    }
+
     /// The messages in the order of their places. The last one tells how many are not shown.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
         self.list.sort_by_key(|diagnostic| diagnostic.span.start);

@@ -89,7 +89,9 @@ impl Layout<'_> {
         for statement in &self.tree.statements {
             self.between(at..statement.tokens.start);
             at = statement.tokens.end;
-            if self.statement(statement, &mut buffer) {
+            let stops = self.statement(statement, &mut buffer);
+            self.open_end(at);
+            if stops {
                 end = Some(at - 1);
                 break;
             }
@@ -109,6 +111,17 @@ impl Layout<'_> {
         let is_empty = rest.trim().is_empty();
         self.out
             .push_str(if is_empty { self.line_end } else { rest });
+    }
+
+    /// Keeps the `;` behind a statement whose last mark would continue it else.
+    fn open_end(&mut self, at: usize) {
+        let open = matches!(self.kind(at - 1), TokenKind::Comma | TokenKind::Ampersand);
+        let behind = self.tree.tokens[at..]
+            .iter()
+            .find(|token| !token.is_trivia());
+        if open && behind.is_some_and(|token| token.kind == TokenKind::Semicolon) {
+            self.out.push(';');
+        }
     }
 
     fn blank_line(&mut self) {

@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
     /// A string on one line.
     fn line(&mut self, raw: &'a RawValue, path: &str) -> Option<String> {
         let text = self.string(raw, path)?;
-        if text.contains(['\n', '\r']) {
+        if text.contains('\n') {
             let found = "one with a line end";
             self.expected(raw, path, "a string of one line", found);
             return None;

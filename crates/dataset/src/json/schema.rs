@@ -77,7 +77,7 @@ fn definitions() -> Map<String, Value> {
         ],
     });
     let id = json!({ "type": "integer", "minimum": 1, "maximum": u32::MAX });
-    let line = json!({ "type": "string", "pattern": "^[^\\r\\n]*$" });
+    let line = json!({ "type": "string", "pattern": "^[^\\n]*$" });
     let lines = json!({ "type": "array", "items": reference("line") });
     let raw = json!({
         "description": "An argument that is not read: true without value, else its text",

@@ -108,6 +108,10 @@ fn statements(
         }
         line_ended = false;
         last_kind = token.kind;
+        if current.is_none() && token.kind == TokenKind::Ampersand && ends_line(tokens, index) {
+            // It continues nothing.
+            continue;
+        }
         match &mut current {
             Some(statement) => statement.tokens.end = index + 1,
             None => {
@@ -124,4 +128,13 @@ fn statements(
     }
     statements.extend(current);
     (statements, None)
+}
+
+/// Whether nothing but a comment follows a token on its line.
+fn ends_line(tokens: &[Token], index: usize) -> bool {
+    let behind = &tokens[index + 1..];
+    let next = behind
+        .iter()
+        .find(|token| !matches!(token.kind, TokenKind::Whitespace | TokenKind::Comment));
+    next.is_none_or(|token| token.kind == TokenKind::Newline)
 }

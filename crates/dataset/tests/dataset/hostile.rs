@@ -7,8 +7,12 @@ use dataset::{
 };
 use std::fmt::Write;
 
-/// The repetitions of what is repeated. An algorithm of quadratic time would not end with it.
-const MANY: usize = 1_000_000;
+/// The repetitions of what is repeated, which the environment variable `STICTION_HOSTILE` sets: with
+/// a million an algorithm of quadratic time would not end.
+fn many() -> usize {
+    let wanted = std::env::var("STICTION_HOSTILE").ok();
+    wanted.and_then(|text| text.parse().ok()).unwrap_or(100_000)
+}
 
 /// Half the stack that a thread has.
 const STACK: usize = 1 << 20;
@@ -68,7 +72,7 @@ fn survive(texts: Vec<(&'static str, Vec<u8>)>) {
 }
 
 fn repeated(before: &str, piece: &str, after: &str) -> Vec<u8> {
-    format!("title\n{before}{}{after}\n", piece.repeat(MANY)).into_bytes()
+    format!("title\n{before}{}{after}\n", piece.repeat(many())).into_bytes()
 }
 
 #[test]
@@ -83,7 +87,7 @@ fn nesting() {
         ("brackets", repeated(variable, "(", "")),
         (
             "closed brackets",
-            repeated(variable, "(1", &")".repeat(MANY)),
+            repeated(variable, "(1", &")".repeat(many())),
         ),
         ("signs", repeated(variable, "-", "1")),
         ("powers", repeated(variable, "2**", "1")),
@@ -91,14 +95,14 @@ fn nesting() {
         ("calls", repeated(variable, "IF(1:", "")),
         ("wrong arguments", repeated("PART/1, (", "(A,", "")),
         ("a chain of variables", variables.into_bytes()),
-        ("JSON lists", b"[".repeat(MANY)),
-        ("JSON objects", b"{\"statements\":".repeat(MANY)),
+        ("JSON lists", b"[".repeat(many())),
+        ("JSON objects", b"{\"statements\":".repeat(many())),
     ]);
 }
 
 #[test]
 fn repetition() {
-    let statements = (1..=MANY).fold(String::from("title\n"), |mut text, id| {
+    let statements = (1..=many()).fold(String::from("title\n"), |mut text, id| {
         let _ = writeln!(text, "PART/{id}");
         text
     });
@@ -155,13 +159,13 @@ fn bytes() {
             "some NULs",
             repeated("PART/1, ", "aaaaaaaaaaaaaaaaaaaaaaaaa\0", ""),
         ),
-        ("NULs", b"\0".repeat(MANY)),
-        ("no UTF-8", b"\xFF".repeat(MANY)),
+        ("NULs", b"\0".repeat(many())),
+        ("no UTF-8", b"\xFF".repeat(many())),
         (
             "JSON digits",
             [
                 b"{\"version\": 1".to_vec(),
-                b"0".repeat(MANY),
+                b"0".repeat(many()),
                 b"}".to_vec(),
             ]
             .concat(),
