@@ -81,8 +81,14 @@ impl Layout<'_> {
             .tokens
             .iter()
             .find(|token| token.kind != TokenKind::Whitespace);
-        // An empty title, and the empty line before the commands, say that they are empty.
-        if first.is_none_or(|token| token.kind == TokenKind::Newline) {
+        // An empty title, and the empty line before the commands, say that they are empty. Commands
+        // get that line, since the first of several on one line might be taken for a title.
+        let commands = self.language == Language::Commands;
+        if first.is_none_or(|token| match token.kind {
+            TokenKind::Newline => true,
+            TokenKind::Line | TokenKind::Comment => false,
+            _ => commands,
+        }) {
             self.line("");
         }
         let mut buffer = Vec::new();
