@@ -205,7 +205,9 @@ impl Reader<'_> {
             }
             keywords::Value::Text(text) => Value::Text(text.clone()),
             keywords::Value::Strings(texts) => Value::Strings(texts.clone()),
-            keywords::Value::Expression(expression) => Value::Expression(expression.text.clone()),
+            keywords::Value::Expression(expression) => {
+                Value::Expression(with_plain_blanks(&expression.text))
+            }
         })
     }
 
@@ -220,6 +222,13 @@ impl Reader<'_> {
 fn comment(text: &str) -> Option<String> {
     let text = text.strip_prefix('!').unwrap_or(text).trim_end();
     (!text.is_empty()).then(|| text.to_string())
+}
+
+/// An expression with a blank behind each comma and no other, wherever its lines are broken.
+fn with_plain_blanks(expression: &str) -> String {
+    let marks = expression.chars().filter(|mark| !mark.is_whitespace());
+    let solid: String = marks.collect();
+    solid.replace(',', ", ")
 }
 
 /// A text without empty lines and without blanks at the ends of the others.
