@@ -99,6 +99,11 @@ impl Entity {
         Self::of("Differential_Equation", name, id, components.to_vec())
     }
 
+    /// A linear system of `count` states: `X1`, `X2`, ...
+    pub fn linear_system(kind: &str, name: &str, id: u32, count: usize) -> Self {
+        Self::of(kind, name, id, numbered("X", count))
+    }
+
     /// A plant input of `count` variables: `IN1`, `IN2`, ...
     pub fn plant_input(name: &str, id: u32, count: usize) -> Self {
         Self::of("Plant_Input", name, id, numbered("IN", count))

@@ -1,7 +1,7 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
 //! Order: parts and point masses, joints, primitives, motions, general constraints, couplers, gears,
-//! applied forces, variables, differential equations, plant inputs and outputs, frictions, requests; last our own entities,
+//! applied forces, variables, differential equations, linear systems, plant inputs and outputs, frictions, requests; last our own entities,
 //! one a friction, where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
@@ -93,6 +93,17 @@ impl Channels {
         for element in &dataset.differentials {
             let name = name(&element.header, "DIFF");
             layout.push(Entity::differential(&name, element.header.id));
+        }
+        let states = &lowered.model.states[dataset.differentials.len()..];
+        for system in states.chunk_by(|a, b| a.label == b.label) {
+            let label = &system[0].label;
+            let name = if label.name.is_empty() {
+                format!("{}_{}", label.statement, label.id)
+            } else {
+                label.name.clone()
+            };
+            let kind = "Linear_System";
+            layout.push(Entity::linear_system(kind, &name, label.id, system.len()));
         }
         let mut ports = Vec::new();
         let mut add_ports = |variables: &[u32]| {
@@ -193,6 +204,7 @@ impl Channels {
             values.push(snapshot.state().states()[state]);
             values.push(snapshot.state_rate(state));
         }
+        values.extend_from_slice(&snapshot.state().states()[self.differentials..]);
         values.extend(
             self.ports
                 .iter()

@@ -59,6 +59,11 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("FRICTION", dataset.frictions.len()),
         ("VARIABLE", dataset.variables.len()),
         ("DIFF", dataset.differentials.len()),
+        ("ARRAY", dataset.arrays.len()),
+        ("MATRIX", dataset.matrices.len()),
+        ("STRING", dataset.strings.len()),
+        ("LSE", dataset.linear_equations.len()),
+        ("TFSISO", dataset.transfer_functions.len()),
         ("REQUEST", dataset.requests.len()),
         ("SENSOR", dataset.sensors.len()),
     ];

@@ -5,6 +5,7 @@ mod connections;
 mod expressions;
 mod friction;
 pub(crate) mod inertia;
+mod linear_systems;
 pub(crate) mod references;
 
 pub(crate) use expressions::{check as expression, named_markers};
@@ -28,6 +29,7 @@ pub(crate) fn model(builder: &Builder, diagnostics: &mut Diagnostics) {
 pub(crate) fn elements(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     connections::check(dataset, diagnostics);
     expressions::check_all(dataset, diagnostics);
+    linear_systems::check(dataset, diagnostics);
 }
 
 /// Exactly one part is the ground.

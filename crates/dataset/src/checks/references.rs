@@ -78,6 +78,8 @@ pub(crate) fn exists(dataset: &Dataset, target: Target, id: u32) -> bool {
         }
         Target::Joint => dataset.joints.position(id).is_some(),
         Target::Variable => dataset.variables.position(id).is_some(),
+        Target::Array => dataset.arrays.position(id).is_some(),
+        Target::Matrix => dataset.matrices.position(id).is_some(),
     }
 }
 
@@ -88,6 +90,8 @@ fn sorted_ids(dataset: &Dataset, target: Target) -> Vec<u32> {
         Target::Marker | Target::FloatingMarker | Target::AnyMarker => sorted(&dataset.markers),
         Target::Joint => sorted(&dataset.joints),
         Target::Variable => sorted(&dataset.variables),
+        Target::Array => sorted(&dataset.arrays),
+        Target::Matrix => sorted(&dataset.matrices),
     }
 }
 

@@ -31,6 +31,8 @@ pub enum ElementKind {
     Variable,
     /// DIFF.
     Differential,
+    /// ARRAY.
+    Array,
     /// FRICTION.
     Friction,
     /// PINPUT.
@@ -279,7 +281,7 @@ functions! {
     // Elements.
     Varval "VARVAL" 1 [Element(E::Variable)] 1
         "id" "value of a VARIABLE";
-    Aryval "ARYVAL" 2 [Element(E::Other), Integer] 2
+    Aryval "ARYVAL" 2 [Element(E::Array), Integer] 2
         "id, component" "component of an ARRAY";
     Dif "DIF" 1 [Element(E::Differential)] 1
         "id" "state of a DIFF";

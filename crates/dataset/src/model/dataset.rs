@@ -1,11 +1,11 @@
 //! The whole model.
 
 use super::{
-    Beam, Bushing, Contact, Coupler, DifferentialEquation, Elements, Equilibrium, Field, Friction,
-    Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint, JointPrimitive,
-    Kinematics, Marker, Motion, OutputOptions, Part, PlantPort, PointMass, Preferences, Request,
-    ResultsOptions, Sensor, SingleForce, Spline, SpringDamper, Switchable, Texts, Units, Variable,
-    VectorForce,
+    Array, Beam, Bushing, Contact, Coupler, DifferentialEquation, Elements, Equilibrium, Field,
+    Friction, Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint,
+    JointPrimitive, Kinematics, LinearStateEquations, Marker, Matrix, Motion, OutputOptions, Part,
+    PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor, SingleForce, Spline,
+    SpringDamper, Switchable, Text, Texts, TransferFunction, Units, Variable, VectorForce,
 };
 use std::collections::BTreeSet;
 
@@ -64,6 +64,16 @@ pub struct Dataset {
     pub variables: Elements<Variable>,
     /// DIFF.
     pub differentials: Elements<DifferentialEquation>,
+    /// ARRAY.
+    pub arrays: Elements<Array>,
+    /// MATRIX.
+    pub matrices: Elements<Matrix>,
+    /// STRING.
+    pub strings: Elements<Text>,
+    /// LSE.
+    pub linear_equations: Elements<LinearStateEquations>,
+    /// TFSISO.
+    pub transfer_functions: Elements<TransferFunction>,
     /// PINPUT.
     pub plant_inputs: Elements<PlantPort>,
     /// POUTPUT.

@@ -4,6 +4,7 @@
 //! Statements keep the order of the file.
 
 mod activity;
+mod array;
 mod commands;
 mod contact;
 mod coupler;
@@ -14,6 +15,7 @@ mod elements;
 mod force;
 mod friction;
 mod joint;
+mod linear_system;
 mod motion;
 mod part;
 mod request;
@@ -26,6 +28,7 @@ mod variable;
 mod vector_force;
 
 pub use activity::{Activity, Selection, Switchable};
+pub use array::{Array, ArrayKind, Matrix, Text};
 pub use commands::{
     Amendment, Change, ChangeKind, Command, CommandFile, CommandKind, Eigensolution,
     FrictionArguments, Simulate, SimulationKind,
@@ -45,6 +48,7 @@ pub use friction::{
 pub use joint::{
     GeneralConstraint, InitialCondition, Joint, JointKind, JointPrimitive, PrimitiveKind,
 };
+pub use linear_system::{LinearStateEquations, TransferFunction};
 pub use motion::{Motion, MotionDirection, MotionLevel, MotionTarget};
 pub use part::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
 pub use request::{Graphics, Request, RequestKind};

@@ -1,5 +1,6 @@
 //! The statements of the language: one table, and one reader for each that is simulated.
 
+mod array;
 mod contact;
 mod coupler;
 mod differential;
@@ -7,6 +8,7 @@ mod elastic;
 mod force;
 mod friction;
 mod joint;
+mod linear_system;
 mod motion;
 mod part;
 mod request;
@@ -53,6 +55,8 @@ pub(crate) enum Target {
     AnyMarker,
     Joint,
     Variable,
+    Array,
+    Matrix,
 }
 
 impl Target {
@@ -63,6 +67,8 @@ impl Target {
             Self::Marker | Self::FloatingMarker | Self::AnyMarker => "MARKER",
             Self::Joint => "JOINT",
             Self::Variable => "VARIABLE",
+            Self::Array => "ARRAY",
+            Self::Matrix => "MATRIX",
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::{
-    contact, coupler, differential, elastic, force, friction, joint, motion, part, request, sensor,
-    settings, spline, units, variable, vector_force,
+    array, contact, coupler, differential, elastic, force, friction, joint, linear_system, motion,
+    part, request, sensor, settings, spline, units, variable, vector_force,
 };
 use crate::keywords::Keyword;
 use crate::names::Name;
@@ -83,7 +83,6 @@ const FORCES: &str = "write it as BEAMs, FIELDs or GFORCEs between pairs of mark
 const LIKE: &str = "a BUSHING or a FIELD with the stiffness at the operating point comes near";
 const SURFACES: &str = "write a GCON on the distance of two markers, or a joint";
 const PROGRAM: &str = "what another program computes is not read; write forces as functions";
-const STATES: &str = "write a DIFF for each state and a VARIABLE for each output";
 const SUBROUTINE_STATES: &str =
     "subroutines are not called; write a DIFF for each state and a VARIABLE for each output";
 const TIRES: &str = "write the force as a GFORCE with functions";
@@ -143,6 +142,21 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         "DI",
         differential::KEYWORDS,
         differential::differential,
+    ),
+    read("ARRAY", "AR", array::ARRAY_KEYWORDS, array::array),
+    read("MATRIX", "MAT", array::MATRIX_KEYWORDS, array::matrix),
+    read("STRING", "STR", array::STRING_KEYWORDS, array::string),
+    read(
+        "LSE",
+        "LS",
+        linear_system::EQUATIONS_KEYWORDS,
+        linear_system::equations,
+    ),
+    read(
+        "TFSISO",
+        "TF",
+        linear_system::TRANSFER_KEYWORDS,
+        linear_system::transfer_function,
     ),
     read(
         "PINPUT",
@@ -204,10 +218,7 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         settings::PREFERENCES_KEYWORDS,
         settings::preferences_statement,
     ),
-    ignored("ARRAY", DATA),
     ignored("CURVE", DATA),
-    ignored("MATRIX", DATA),
-    ignored("STRING", DATA),
     ignored("SURFACE", DATA),
     ignored("MATERIAL", "rigid parts give their own mass and inertia"),
     ignored("SECTION", "only flexible parts have a cross-section"),
@@ -240,11 +251,9 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("FE_PART", "FE_P", FLEXIBLE),
     unsupported("FLEX_BODY", "FL", FLEXIBLE),
     unsupported("GSE", "GS", SUBROUTINE_STATES),
-    unsupported("LSE", "LSE", STATES),
     unsupported("MFORCE", "MF", FLEXIBLE),
     unsupported("NFORCE", "NF", FORCES),
     unsupported("PTCV", "PT", SURFACES),
-    unsupported("TFSISO", "TF", STATES),
     unsupported("TIRE", "TIRE", TIRES),
     unsupported("UCON", "UC", CONSTRAINTS),
 ];

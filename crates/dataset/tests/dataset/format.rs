@@ -91,7 +91,7 @@ fn line_ends_and_texts_stay() {
     let text = "title\r\nSTRING/1, STRING=a  b,  c\r\nREQUEST/1, D, I=1, COMMENT=a  b,  c\r\n";
     assert_eq!(
         laid_out(text, Language::Dataset),
-        "title\r\nSTRING/1, STRING=a  b,  c\r\nREQUEST/1\r\n, D\r\n, I = 1\r\n\
+        "title\r\nSTRING/1\r\n, STRING = a  b,  c\r\nREQUEST/1\r\n, D\r\n, I = 1\r\n\
          , COMMENT = a  b,  c\r\n"
     );
 }

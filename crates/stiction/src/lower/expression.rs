@@ -7,6 +7,7 @@ use mechanics::expression::{Binary, Input, Operation, Program, Register, Unary};
 use mechanics::measure::Order;
 use mechanics::{Acting, ForceComponent, ForceElement, Side};
 
+use super::linear_systems::{ArrayElement, Term};
 use super::results::ResultSource;
 use super::unknowns::Unknown;
 use super::{Lowering, composite};
@@ -181,6 +182,9 @@ impl Compiler {
         if let Some(id) = variable_of(lowering, call) {
             return self.variables.get(&id).copied().flatten().ok_or(Refused);
         }
+        if function == Function::Aryval {
+            return self.array_element(lowering, call);
+        }
         let ground = lowering.ground;
         let dataset = lowering.dataset;
         let marker = |id: Option<u32>| {
@@ -253,6 +257,54 @@ impl Compiler {
         let z = self.expr(lowering, &arguments[1])?;
         let order = number(3).unwrap_or(0) as usize;
         Ok(self.program.push_lookup(&table, order, x, z))
+    }
+
+    /// `ARYVAL(array, element)`.
+    fn array_element(&mut self, lowering: &mut Lowering, call: &Expr) -> Result<Register, Refused> {
+        let found = element_of(lowering, call);
+        match found {
+            Some(ArrayElement::Number(value)) => Ok(self.constant(value)),
+            Some(ArrayElement::Combination(combination)) => {
+                let combination = combination.clone();
+                let of_states = combination
+                    .iter()
+                    .any(|(term, _)| matches!(term, Term::State(_)));
+                if of_states && self.reads < Reads::Solution {
+                    return Err(self.refuse_order(lowering, call));
+                }
+                self.combination(lowering, &combination)
+            }
+            None => Err(self.refuse_function(lowering, call)),
+        }
+    }
+
+    /// A sum of multiples of states and variables.
+    pub(super) fn combination(
+        &mut self,
+        lowering: &mut Lowering,
+        combination: &[(Term, f64)],
+    ) -> Result<Register, Refused> {
+        let mut sum = None;
+        for &(term, factor) in combination {
+            let value = match term {
+                Term::State(place) => self.program.push(Operation::Input(Input::State(place))),
+                Term::Variable(id) => {
+                    self.close_variable(lowering, id)?;
+                    self.variables.get(&id).copied().flatten().ok_or(Refused)?
+                }
+            };
+            let value = if factor == 1.0 {
+                value
+            } else {
+                let factor = self.constant(factor);
+                self.binary(Binary::Multiply, factor, value)
+            };
+            sum = Some(match sum {
+                Some(sum) => self.binary(Binary::Add, sum, value),
+                None => value,
+            });
+        }
+        Ok(sum.unwrap_or_else(|| self.constant(0.0)))
     }
 
     /// An algebraic variable.
@@ -427,6 +479,10 @@ const fn refusal(function: Function) -> (&'static str, &'static str) {
             "knows types 1 to 12 (three components) and 27 (four) only",
             "type 1 is 1-2-3, 6 is 3-2-1, 11 is 3-1-3; 27 gives the Euler parameters",
         ),
+        F::Aryval => (
+            "reads an element that the array does not have",
+            "an array of states or outputs has those of the LSE or TFSISO that names it",
+        ),
         F::Senval => (
             "reads a value that sensors do not keep",
             "write the function that EVALUATE of the SENSOR has",
@@ -482,10 +538,33 @@ fn state_of(lowering: &Lowering, function: Function, arguments: &[Expr]) -> Opti
     lowering.dataset.differentials.position(id).map(input)
 }
 
+/// What an ARYVAL reads; `None` for other nodes, and where there is no such element.
+fn element_of<'a>(lowering: &'a Lowering, node: &Expr) -> Option<ArrayElement<'a>> {
+    let Expr::Call {
+        function: Function::Aryval,
+        arguments,
+        ..
+    } = node
+    else {
+        return None;
+    };
+    let [array, element] = [arguments.first()?.as_id()?, arguments.get(1)?.as_id()?];
+    let dataset = lowering.dataset;
+    lowering.linear_systems.element(dataset, array, element)
+}
+
 /// The variables that an expression reads.
 pub(super) fn variables_of(lowering: &Lowering, root: &Expr) -> Vec<u32> {
     let mut found = Vec::new();
-    root.visit(&mut |node| found.extend(variable_of(lowering, node)));
+    root.visit(&mut |node| {
+        found.extend(variable_of(lowering, node));
+        if let Some(ArrayElement::Combination(terms)) = element_of(lowering, node) {
+            found.extend(terms.iter().filter_map(|(term, _)| match term {
+                Term::Variable(id) => Some(*id),
+                Term::State(_) => None,
+            }));
+        }
+    });
     found
 }
 

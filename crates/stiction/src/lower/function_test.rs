@@ -55,6 +55,7 @@ BUSHING/1, I=60, J=1, K=1, 1, 1
 FIELD/1, I=60, J=1
 BEAM/1, I=60, J=1, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMODULUS=1, GMODULUS=1
 VARIABLE/1, FUNCTION=3+DX(21)
+ARRAY/1, U, VARIABLES=1
 DIFF/1, IC=1, FUNCTION=-DIF(1)
 PINPUT/1, VARIABLES=1
 POUTPUT/1, VARIABLES=1
@@ -211,7 +212,7 @@ fn checks() -> Vec<(Function, Check)> {
             ),
         ),
         (N::Varval, F("VARVAL(1)", |w| 3.0 + w.i.origin.x)),
-        (N::Aryval, Refused("ARYVAL(1,1)")),
+        (N::Aryval, F("ARYVAL(1,1)", |w| 3.0 + w.i.origin.x)),
         (N::Dif, Test("DIF(1)", STATES)),
         (N::Dif1, Test("DIF1(1)", IMPLICIT)),
         (N::Pinval, F("PINVAL(1,1)", |w| 3.0 + w.i.origin.x)),

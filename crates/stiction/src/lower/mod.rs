@@ -18,6 +18,7 @@ mod friction;
 #[cfg(test)]
 mod function_test;
 mod joints;
+mod linear_systems;
 mod measures;
 mod motions;
 mod outputs;
@@ -104,6 +105,7 @@ pub(crate) fn lower(
         motions: Vec::new(),
         results: Vec::new(),
         tables: tables::Tables::default(),
+        linear_systems: linear_systems::LinearSystems::new(dataset),
         diagnostics: Vec::new(),
         told: HashSet::new(),
     };
@@ -121,6 +123,7 @@ pub(crate) fn lower(
     lowering.motions(&mut model);
     lowering.forces(&mut model);
     lowering.differentials(&mut model);
+    lowering.linear_states(&mut model);
     lowering.algebraics(&mut model);
     let outputs = lowering.outputs();
     model.inactive = lowering.inactive();
@@ -161,6 +164,8 @@ struct Lowering<'a> {
     results: Vec<results::ResultSource>,
     /// Splines as functions interpolate them.
     tables: tables::Tables,
+    /// LSE and TFSISO.
+    linear_systems: linear_systems::LinearSystems,
     diagnostics: Vec<Diagnostic>,
     /// Places and texts of the diagnostics.
     told: HashSet<(usize, usize, String)>,

@@ -21,6 +21,7 @@ mod instants;
 mod invariance;
 mod jams;
 mod jumps;
+mod linear_systems;
 mod lowering;
 mod machines;
 mod run_time;
