@@ -77,7 +77,8 @@ pub(crate) fn fixed(reading: &mut Reading, keywords: &[&'static str]) {
             let span = reading.place(keyword);
             reading
                 .diagnostics
-                .error(Code::InvalidChange, span, message);
+                .error(Code::InvalidChange, span, message)
+                .help("change it in the dataset");
         }
     }
 }

@@ -1,13 +1,14 @@
 //! From text to a [`Dataset`].
 
 use crate::checks;
+use crate::commands;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::lints;
 use crate::model::{Dataset, Texts};
 use crate::names::{self, Match, Name};
 use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
-use crate::statements::{Action, Builder, STATEMENTS, name_freedoms};
+use crate::statements::{Action, Builder, Rule, STATEMENTS, name_freedoms};
 use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items};
 
 /// Reads a dataset (`.adm`).
@@ -80,6 +81,9 @@ fn read(
     for statement in &tree.statements {
         items(&tree, statement, &mut buffer);
         read_statement(&tree, statement, &buffer, &mut builder, &mut diagnostics);
+        if diagnostics.ends_with(Code::WrongFileType) {
+            return (builder.dataset, diagnostics.finish());
+        }
     }
     name_freedoms(&mut builder, &mut diagnostics);
     checks::model(&builder, &mut diagnostics);
@@ -125,7 +129,7 @@ pub(crate) fn read_statement(
         return;
     };
     let names = STATEMENTS.iter().map(|rule| rule.name);
-    let Some(index) = find("statement", raw.name, names, diagnostics) else {
+    let Some(index) = find(raw.name, names, unknown_statement, diagnostics) else {
         return;
     };
     let rule = &STATEMENTS[index];
@@ -150,7 +154,9 @@ pub(crate) fn read_statement(
     if !rule.identified {
         if builder.singles.contains(&name) {
             let message = format!("{name} is there already");
-            diagnostics.error(Code::DuplicateStatement, raw.head, message);
+            diagnostics
+                .error(Code::DuplicateStatement, raw.head, message)
+                .help("keep one, with the arguments of both");
         }
         builder.singles.push(name);
     }
@@ -202,6 +208,13 @@ impl RawHead {
             diagnostics.error(Code::Syntax, first.span(), message);
             return None;
         }
+        if items
+            .get(1)
+            .is_some_and(|item| item.kind() == TokenKind::Equals)
+        {
+            continuation(first.span(), "it", diagnostics);
+            return None;
+        }
         let slash = items
             .get(1)
             .is_some_and(|item| item.kind() == TokenKind::Slash);
@@ -246,11 +259,58 @@ impl RawHead {
     }
 }
 
-/// The position of the name that `span` means; `None` after a report if it means none.
+/// Reports an argument at the start of a line that does not continue the statement before.
+fn continuation(name: Span, owner: &str, diagnostics: &mut Diagnostics) {
+    let argument = diagnostics.source.excerpt(name);
+    let message = format!("{argument} is no statement but an argument");
+    let start = Span::new(name.start, name.start);
+    diagnostics
+        .error(Code::Syntax, name, message)
+        .help(format!(
+            "if {owner} belongs to the statement before, start the line with a comma"
+        ))
+        .replace(start, ", ");
+}
+
+/// Reports a name that no statement has.
+fn unknown_statement(name: Span, near: Option<&'static str>, diagnostics: &mut Diagnostics) {
+    let word = diagnostics.source.slice(name);
+    if let Some(command) = commands::grammar(word) {
+        let message = format!("{} is a command, and this is a dataset", command.name);
+        diagnostics
+            .error(Code::WrongFileType, name, message)
+            .help("a file of commands has the extension .acf");
+        return;
+    }
+    if let Some(owner) = statement_with(word) {
+        return continuation(name, &format!("this argument of {owner}"), diagnostics);
+    }
+    let message = format!(
+        "no statement is called {}",
+        diagnostics.source.excerpt(name)
+    );
+    diagnostics
+        .error(Code::UnknownStatement, name, message)
+        .meant(near);
+}
+
+/// The first statement with an argument of this full name.
+fn statement_with(argument: &str) -> Option<&'static str> {
+    let has = |rule: &&Rule| match rule.action {
+        Action::Read(Some(keywords), _) => keywords
+            .iter()
+            .any(|keyword| keyword.name.full.eq_ignore_ascii_case(argument)),
+        _ => false,
+    };
+    STATEMENTS.iter().find(has).map(|rule| rule.name.full)
+}
+
+/// The position of the name that `span` means; `None` after a report, by `unknown` with the name
+/// that is near where it means none.
 pub(crate) fn find(
-    what: &str,
     span: Span,
     names: impl Iterator<Item = Name> + Clone,
+    unknown: fn(Span, Option<&'static str>, &mut Diagnostics),
     diagnostics: &mut Diagnostics,
 ) -> Option<usize> {
     let word = diagnostics.source.slice(span);
@@ -266,11 +326,7 @@ pub(crate) fn find(
             let near = (!diagnostics.is_full())
                 .then(|| names::nearest(word, names.map(|name| name.full)))
                 .flatten();
-            let found = diagnostics.source.excerpt(span);
-            let message = format!("no {what} is called {found}");
-            diagnostics
-                .error(Code::UnknownStatement, span, message)
-                .meant(near);
+            unknown(span, near, diagnostics);
         }
     }
     None

@@ -119,7 +119,8 @@ impl<'a, 's> Reading<'a, 's> {
         if !self.has(keyword) {
             let message = format!("{} needs {keyword}", self.label());
             self.diagnostics
-                .error(Code::MissingArgument, self.head, message);
+                .error(Code::MissingArgument, self.head, message)
+                .help(format!("add {keyword}=..."));
         }
     }
 
@@ -357,7 +358,8 @@ impl<'a, 's> Reading<'a, 's> {
             let message = format!("{} cannot have both {first} and {other}", self.label());
             let span = self.place(other);
             self.diagnostics
-                .error(Code::ConflictingArguments, span, message);
+                .error(Code::ConflictingArguments, span, message)
+                .help("keep one of them");
         }
     }
 }

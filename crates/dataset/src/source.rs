@@ -182,18 +182,24 @@ impl Source {
         self.text.get(span.start..span.end).unwrap_or("")
     }
 
-    /// The text of `span` for a message: on one line and at most 60 characters long.
+    /// The text of `span` for a message: on one line and at most 60 characters long, control
+    /// characters as `\u{0}`.
     #[must_use]
     pub fn excerpt(&self, span: Span) -> String {
         const LONGEST: usize = 60;
         let text = self.slice(span);
         let line = text.lines().next().unwrap_or("").trim_end();
         let short: String = line.chars().take(LONGEST).collect();
-        if short.len() < text.trim_end().len() {
-            format!("{short}...")
+        let dots = if short.len() < text.trim_end().len() {
+            "..."
         } else {
-            short
-        }
+            ""
+        };
+        let visible = |c: char| match c.is_control() && c != '\t' {
+            true => c.escape_default().to_string(),
+            false => c.to_string(),
+        };
+        short.chars().map(visible).collect::<String>() + dots
     }
 
     /// Line and column of a byte offset, both counted from 1, columns in characters.

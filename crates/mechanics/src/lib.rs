@@ -109,7 +109,7 @@ pub mod state;
 mod system;
 mod system_elements;
 
-pub use assembly::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
+pub use assembly::{Assembly, AssemblyError, Massless, Moved, Redundancy, Unmet, VelocityChange};
 pub use constraint::Owner;
 pub use dynamics::{Formulation, Work};
 pub use equilibrium::{EquilibriumReport, EquilibriumSettings};

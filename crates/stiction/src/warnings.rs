@@ -25,6 +25,21 @@ pub(crate) fn of_assembly(project: &Project, assembly: &Assembly, model: &Model)
             .help("constrain the mechanism once, with joints that leave more freedoms");
         warning
     });
-    let messages = not_unique.map(|diagnostic| Message::new(diagnostic, source));
+    let massless = assembly.massless.iter().map(|massless| {
+        let body = &massless.body;
+        let text = match massless.turns {
+            true => format!("{body} has no inertia and can turn while all with mass stands still"),
+            false => format!("{body} has no mass and can move while all with mass stands still"),
+        };
+        let code = Code::MasslessPart;
+        let mut warning = about(dataset, source, Severity::Warning, code, Some(body), text);
+        warning
+            .note("its accelerations have no equation: a simulation that needs them fails")
+            .help("give it mass and inertia, or fix it on another part");
+        warning
+    });
+    let messages = not_unique
+        .chain(massless)
+        .map(|diagnostic| Message::new(diagnostic, source));
     project.levels.judge_all(messages.collect())
 }

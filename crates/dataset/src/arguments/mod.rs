@@ -103,6 +103,16 @@ impl Parser<'_, '_> {
                     separated = false;
                     self.argument();
                 }
+                Some(TokenKind::Word) if self.argument_at(self.at) => {
+                    let span = self.span(self.at);
+                    let message = format!("a comma is missing before {}", self.slice(self.at));
+                    let before = Span::new(span.start, span.start);
+                    self.diagnostics
+                        .error(Code::Syntax, span, message)
+                        .help("arguments are separated by commas")
+                        .replace(before, ", ");
+                    self.argument();
+                }
                 _ => {
                     let span = self.span(self.at);
                     let found = self.source.excerpt(span);
@@ -206,7 +216,8 @@ impl Parser<'_, '_> {
         if once && before.any(|argument| argument.keyword == full && argument.value.is_some()) {
             let message = format!("{full} is given twice");
             self.diagnostics
-                .error(Code::DuplicateArgument, span, message);
+                .error(Code::DuplicateArgument, span, message)
+                .help("keep one of the two");
         }
         match self.value(full, keyword.kind, span) {
             Ok(value) => Some(value),

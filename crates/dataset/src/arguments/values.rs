@@ -139,6 +139,8 @@ impl Parser<'_, '_> {
     fn end_of_value(&mut self, name: &str) -> Result<(), Refused> {
         match self.kind(self.at) {
             None | Some(TokenKind::Comma | TokenKind::Backslash) => Ok(()),
+            // The missing comma is reported where the argument is read.
+            Some(TokenKind::Word) if self.argument_at(self.at) => Ok(()),
             Some(_) => {
                 let found = self.source.excerpt(self.span(self.at));
                 let message = format!("the value of {name} ends before `{found}`");
@@ -151,7 +153,7 @@ impl Parser<'_, '_> {
         let what = if least == 0 {
             "a whole number"
         } else {
-            "the number of an element, 1 or greater"
+            "the number of an element, 1 to 4294967295"
         };
         let mut values = Vec::new();
         loop {

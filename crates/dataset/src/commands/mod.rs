@@ -35,6 +35,9 @@ pub fn read_commands(source: &Source) -> (CommandFile, Vec<Diagnostic>) {
     let tree = SyntaxTree::new(source, Language::Commands);
     let mut file = CommandFile::default();
     file.commands.extend(first_lines(source, &tree));
+    if refuse_dataset(&tree, &mut diagnostics) {
+        return (CommandFile::default(), diagnostics.finish());
+    }
     let mut buffer = Vec::new();
     let mut time = 0.0;
     for statement in &tree.statements {
@@ -53,6 +56,28 @@ pub fn read_commands(source: &Source) -> (CommandFile, Vec<Diagnostic>) {
     (file, diagnostics.finish())
 }
 
+/// Reports a file whose first statement is one of a dataset and no command; returns whether it is.
+fn refuse_dataset(tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> bool {
+    let Some(first) = tree.statements.first() else {
+        return false;
+    };
+    let span = tree.tokens[first.tokens.start].span();
+    let word = diagnostics.source.slice(span);
+    let statement = names::find(word, STATEMENTS.iter().map(|rule| rule.name));
+    let Match::One(index) = statement else {
+        return false;
+    };
+    if grammar(word).is_some() {
+        return false;
+    }
+    let name = STATEMENTS[index].name.full;
+    let message = format!("{name} is a statement of a dataset, and this is a command file");
+    diagnostics
+        .error(Code::WrongFileType, span, message)
+        .help("a dataset has the extension .adm");
+    true
+}
+
 /// Reads one command; `None` after a report, or where it has no effect.
 pub(crate) fn read_command(
     tree: &SyntaxTree,
@@ -67,12 +92,8 @@ pub(crate) fn read_command(
         names.filter(|name| COMMANDS.iter().all(|rule| rule.name.full != name.full))
     };
     let names = COMMANDS.iter().map(|rule| rule.name);
-    let index = find(
-        "command",
-        raw.name,
-        names.chain(only_statements()),
-        diagnostics,
-    )?;
+    let names = names.chain(only_statements());
+    let index = find(raw.name, names, unknown, diagnostics)?;
     let Some(rule) = COMMANDS.get(index) else {
         let name = only_statements().nth(index - COMMANDS.len())?.full;
         let rule = STATEMENTS.iter().find(|rule| rule.name.full == name)?;
@@ -126,6 +147,14 @@ pub(crate) fn read_command(
     let kind = read(&mut reading)?;
     let echo = join(diagnostics.source, buffer);
     Some(Command { kind, echo, span })
+}
+
+/// Reports a name that no command has.
+fn unknown(name: Span, near: Option<&'static str>, diagnostics: &mut Diagnostics) {
+    let message = format!("no command is called {}", diagnostics.source.excerpt(name));
+    diagnostics
+        .error(Code::UnknownStatement, name, message)
+        .meant(near);
 }
 
 /// The command that `word` names, with the form of its arguments.

@@ -33,6 +33,11 @@ impl<'a> Diagnostics<'a> {
         self.dropped_errors > 0 || severities.any(|severity| severity == Severity::Error)
     }
 
+    /// Whether the last message has this code.
+    pub(crate) fn ends_with(&self, code: Code) -> bool {
+        self.list.last().is_some_and(|last| last.code == code)
+    }
+
     pub(crate) fn error(
         &mut self,
         code: Code,

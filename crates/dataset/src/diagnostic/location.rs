@@ -22,7 +22,8 @@ pub struct Location {
     pub end: Place,
     /// Where its replacement goes, first character and behind the last.
     pub replacement: Option<[Place; 2]>,
-    /// The line of the source, cut to a window where it is long, and carets under the place.
+    /// The line of the source, cut to a window where it is long, and carets under the place; none
+    /// where the message is about the file as a whole.
     excerpt: Option<(String, String)>,
 }
 
@@ -87,6 +88,10 @@ impl Diagnostic {
     fn excerpt(&self, source: &Source) -> Option<(String, String)> {
         const WINDOW: usize = 120;
         const BEFORE: usize = 80;
+        // Messages about a file as a whole mark nothing in it.
+        if self.span == Span::default() {
+            return None;
+        }
         let (line, start) = source.line_text(self.span.start);
         let from = line.len().min(self.span.start.saturating_sub(start));
         let to = line
@@ -102,8 +107,13 @@ impl Diagnostic {
         let marked = line.get(from..to.min(right)).unwrap_or("").chars().count();
         let before = line.get(left..from).unwrap_or("").chars();
         let blank: String = before.map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        // A control character would move what follows it away from the marks.
+        let visible = |c: char| match c.is_control() && c != '\t' {
+            true => char::REPLACEMENT_CHARACTER,
+            false => c,
+        };
         Some((
-            text.to_string(),
+            text.chars().map(visible).collect(),
             format!("{blank}{}", "^".repeat(marked.max(1))),
         ))
     }

@@ -300,7 +300,9 @@ impl Parser<'_> {
     fn close(&mut self, open: Item) -> Result<Item, Problem> {
         let Some(item) = self.peek() else {
             let message = "this bracket is not closed".to_string();
-            return Err(self.problem(Code::Expression, open.span(), message));
+            let mut problem = self.problem(Code::Expression, open.span(), message);
+            problem.help = Some("write `)` where it ends".to_string());
+            return Err(problem);
         };
         if item.kind() != TokenKind::RightParenthesis {
             return Err(self.unexpected(item, "an operator, `,` or `)`"));

@@ -28,7 +28,7 @@ pub(crate) use settings::{
     EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, PREFERENCES_KEYWORDS, equilibrium, integrator,
     preferences,
 };
-pub(crate) use table::{Action, STATEMENTS};
+pub(crate) use table::{Action, Rule, STATEMENTS};
 pub(crate) use units::{GRAVITY_KEYWORDS, gravity};
 pub(crate) use variable::KEYWORDS as VARIABLE_KEYWORDS;
 pub(crate) use vector_force::{
@@ -159,7 +159,8 @@ fn add<T: Element>(list: &mut Elements<T>, element: T, name: &str, diagnostics: 
                 span,
                 format!("{name}/{id} is there already"),
             )
-            .note(format!("the first one is on line {line}"));
+            .note(format!("the first one is on line {line}"))
+            .help("give one of the two another number, and correct what refers to it");
     }
     list.push(element);
 }

@@ -7,6 +7,7 @@
 //! others are found (`numerics::rank`), and what they say must hold anyway.
 
 mod least_change;
+mod massless;
 mod redundancy;
 mod report;
 mod rows;
@@ -14,7 +15,7 @@ mod rows;
 use nalgebra::Vector3;
 use numerics::linear::Singular;
 
-pub use report::{Assembly, AssemblyError, Moved, Redundancy, Unmet, VelocityChange};
+pub use report::{Assembly, AssemblyError, Massless, Moved, Redundancy, Unmet, VelocityChange};
 
 use crate::constraint::{Form, codirected_axes, name};
 use crate::model::{Element, Level};
@@ -143,6 +144,7 @@ impl System {
         Ok(Assembly {
             moved: self.moved(&given, state, length),
             velocity_changes: self.velocity_changes(&given, state, length),
+            massless: self.massless(&self.assembly_rows(&[], length)),
             redundant,
             not_unique,
             iterations,

@@ -34,6 +34,15 @@ pub struct VelocityChange {
     pub angular: f64,
 }
 
+/// A body that can move without any inertia against it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Massless {
+    /// The body.
+    pub body: Label,
+    /// Whether it turns without inertia, rather than moves without mass.
+    pub turns: bool,
+}
+
 /// What assembly did.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Assembly {
@@ -43,6 +52,8 @@ pub struct Assembly {
     pub velocity_changes: Vec<VelocityChange>,
     /// Equations that were dropped because they depend on others.
     pub redundant: Vec<Redundancy>,
+    /// Bodies that can move although nothing with mass moves: only forces on them can say how.
+    pub massless: Vec<Massless>,
     /// Frictions whose joint's reaction is not unique for that reason, by place in the model.
     pub not_unique: Vec<usize>,
     /// Iterations on the positions.

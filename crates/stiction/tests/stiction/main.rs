@@ -12,6 +12,7 @@ mod commands;
 mod corpus;
 mod couplers;
 mod delta_robot;
+mod diagnostics;
 mod differential;
 mod energy;
 mod examples;
