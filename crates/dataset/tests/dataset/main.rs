@@ -10,6 +10,7 @@ mod format;
 mod hostile;
 mod json;
 mod language;
+mod lints;
 mod misuse;
 mod mutations;
 mod shared;

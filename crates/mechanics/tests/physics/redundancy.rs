@@ -80,6 +80,8 @@ fn part_without_mass_may_move_where_its_motion_is_determined() {
         v(-1.0, 0.0, 0.0),
         Vector3::z(),
     );
+    let assembly = Simulation::new(b.model.clone(), 1.0).assemble();
+    assert_eq!(assembly.expect("it assembles").massless, []);
     let settings = settings(Formulation::Si2, 1e-9, 0.1);
     let with_arm = run(b.model, &[2.0], &settings, |_| {});
     let without = run(pendulum(), &[2.0], &settings, |_| {});
@@ -102,7 +104,11 @@ fn free_part_without_mass_is_named() {
         Vector3::z(),
     );
     let mut simulation = Simulation::new(b.model, 1.0);
-    simulation.assemble().expect("positions are fine");
+    let assembly = simulation.assemble().expect("positions are fine");
+    let [free] = assembly.massless.as_slice() else {
+        panic!("{:?}", assembly.massless)
+    };
+    assert_eq!((free.body.id, free.turns), (2, true));
     let error = simulation
         .solve_instant()
         .expect_err("nothing determines its rotation");

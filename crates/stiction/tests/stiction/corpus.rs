@@ -1,8 +1,38 @@
-//! Every real dataset and command file of the corpus: what `stiction check` says about it.
+//! Every real dataset and command file of the corpus: read, checked, assembled and run.
+//!
+//! `--nocapture` prints a table: statements, what is refused and why, diagnostics by code, and how a
+//! run of the file's own commands, or of 0.1 s where it has none, ended.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
+use dataset::{Code, Language, Severity, Source, SyntaxTree};
+use stiction::{Message, Outcome, Progress, Project, RunOptions, Session, Watch};
+
+use crate::shared::scratch_folder;
+
+/// Names in the corpus that are no part of the language, and why: `file: message`.
+const NOT_IN_THE_LANGUAGE: [(&str, &str, &str); 8] = [
+    ("prova.adm", "no statement is called LEONARDO", "made up"),
+    ("prova.adm", "no statement is called LEOSILVA", "made up"),
+    ("prova.adm", "no statement is called PIRLA", "made up"),
+    ("prova.adm", "PART has no argument TUASORELLA", "made up"),
+    ("prova.adm", "PART has no argument X", "neither XG nor VX"),
+    ("prova.adm", "PART has no argument Z", "neither ZG nor VZ"),
+    (
+        "prova.adm",
+        "no function or constant is called",
+        "made up",
+    ),
+    (
+        "bipendolo.adm",
+        "no statement is called",
+        "the title is missing, and the first line is taken for it",
+    ),
+];
+
+/// The files of real models in a folder and below.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
         .unwrap()
@@ -22,64 +52,166 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Statement or argument that a message is about: its text up to the first figures.
-fn subject(message: &str) -> String {
-    message
-        .split(|c: char| c.is_ascii_digit())
-        .next()
-        .unwrap_or(message)
-        .trim()
-        .to_owned()
+/// Lets a run take so long; what it has not found wrong by then it will hardly find.
+struct Patience(Instant);
+
+const PATIENCE: Duration = Duration::from_secs(5);
+
+impl Watch for Patience {
+    fn progress(&mut self, _: &Progress) -> bool {
+        self.0.elapsed() < PATIENCE
+    }
+}
+
+/// How many statements a file has.
+fn statements(path: &Path) -> usize {
+    let Ok(source) = Source::from_bytes("file", &std::fs::read(path).unwrap()) else {
+        return 0;
+    };
+    let commands = path.extension().is_some_and(|extension| extension == "acf");
+    let language = match commands {
+        true => Language::Commands,
+        false => Language::Dataset,
+    };
+    SyntaxTree::new(&source, language).statements.len()
+}
+
+/// What became of a file.
+struct Row {
+    /// One or two words.
+    fate: &'static str,
+    /// Why.
+    reason: String,
+    messages: Vec<Message>,
+}
+
+/// The first error of some messages, in short.
+fn first_error(messages: &[Message]) -> String {
+    let errors = messages.iter().filter(|message| message.is_error());
+    let mut names: Vec<&str> = errors
+        .map(|message| message.diagnostic.message.as_str())
+        .collect();
+    let count = names.len();
+    names.dedup();
+    let first: String = names.first().unwrap_or(&"").chars().take(90).collect();
+    format!("{count} errors: {first}")
+}
+
+fn look(path: &Path) -> Row {
+    let refused = |messages: Vec<Message>| Row {
+        fate: "refused",
+        reason: first_error(&messages),
+        messages,
+    };
+    let mut project = match Project::load(path) {
+        Ok(project) => project,
+        Err(error) => return refused(error.messages),
+    };
+    let mut messages = match stiction::check(&project) {
+        Ok(report) => report.messages,
+        Err(error) => return refused(error.messages),
+    };
+    if messages.iter().any(Message::is_error) {
+        let of_assembly = |m: &Message| m.diagnostic.code == Code::Assembly;
+        let physical = messages.iter().any(of_assembly);
+        let fate = if physical { "not assembled" } else { "refused" };
+        let reason = first_error(&messages);
+        return Row {
+            fate,
+            reason,
+            messages,
+        };
+    }
+    if project.is_dataset_alone() {
+        let second = project.dataset().units.as_ref().and_then(|units| units.time);
+        let second = second.map_or(1.0, |unit| 1.0 / unit.si());
+        project.push_dynamic(0.1 * second, Some(10), None);
+    }
+    let folder = scratch_folder();
+    let session = Session::new(&project).unwrap();
+    let report = session
+        .run(&folder, RunOptions::default(), &mut Patience(Instant::now()))
+        .unwrap();
+    std::fs::remove_dir_all(folder).unwrap();
+    messages.extend(report.messages);
+    let short = |text: &str| text.lines().next().unwrap_or("").to_owned();
+    let (fate, reason) = match report.outcome {
+        Outcome::Completed => ("completed", format!("to {}", report.time)),
+        Outcome::Interrupted => ("out of time", format!("at {}", report.time)),
+        Outcome::Refused(text) => ("not carried out", short(&text)),
+        Outcome::AssemblyFailed(text) => ("no start", short(&text)),
+        Outcome::IntegrationFailed(text) => ("stopped", short(&text)),
+    };
+    Row {
+        fate,
+        reason,
+        messages,
+    }
+}
+
+/// The codes of messages with how often they come, the errors first.
+fn by_code(messages: &[Message]) -> String {
+    let mut counts: BTreeMap<(Severity, &str), usize> = BTreeMap::new();
+    for message in messages {
+        let diagnostic = &message.diagnostic;
+        let key = (diagnostic.severity, diagnostic.code.as_str());
+        *counts.entry(key).or_default() += 1;
+    }
+    let counts = counts.iter().map(|((severity, code), count)| {
+        format!("{} {count} {code}", &severity.as_str()[..1].to_uppercase())
+    });
+    counts.collect::<Vec<_>>().join(", ")
+}
+
+/// Names that the language does not have, where the file is not known to be wrong.
+fn unknown(file: &str, messages: &[Message]) -> Vec<String> {
+    let is_unknown = |message: &&Message| {
+        matches!(
+            message.diagnostic.code,
+            Code::UnknownStatement
+                | Code::UnknownArgument
+                | Code::UnknownFunction
+                | Code::AmbiguousName
+        )
+    };
+    let known = |message: &&Message| {
+        NOT_IN_THE_LANGUAGE
+            .iter()
+            .any(|(of, text, _)| *of == file && message.diagnostic.message.starts_with(text))
+    };
+    let unknown = messages.iter().filter(is_unknown).filter(|m| !known(m));
+    unknown.map(ToString::to_string).collect()
 }
 
 #[test]
-fn every_file_is_checked() {
+fn every_file_is_read_and_what_is_not_refused_runs() {
     let Some(corpus) = reference_data::path("corpus") else {
         return;
     };
     let mut found = Vec::new();
     files(&corpus, &mut found);
-    let mut refused: BTreeMap<String, (usize, Vec<usize>)> = BTreeMap::new();
-    let (mut read, mut assembled) = (0, 0);
-    for (number, path) in found.iter().enumerate() {
-        let simulation = stiction::Project::load(path).and_then(|project| project.simulation());
-        match simulation {
-            Ok(mut simulation) => {
-                read += 1;
-                match simulation.assemble() {
-                    Ok(_) => assembled += 1,
-                    Err(error) => println!("{}: {error}", path.display()),
-                }
-            }
-            Err(error) => {
-                assert!(
-                    !error.messages.is_empty(),
-                    "{}: refused without a word",
-                    path.display()
-                );
-                for message in error.messages.iter().filter(|message| message.is_error()) {
-                    let key = format!(
-                        "{:?}: {}",
-                        message.diagnostic.code,
-                        subject(&message.diagnostic.message)
-                    );
-                    let entry = refused.entry(key).or_default();
-                    entry.0 += 1;
-                    if entry.1.last() != Some(&number) {
-                        entry.1.push(number);
-                    }
-                }
-            }
+    assert!(found.len() > 70, "the corpus has 78 files");
+    let mut fates: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for path in &found {
+        let row = look(path);
+        let file = path.strip_prefix(&corpus).unwrap().display().to_string();
+        println!(
+            "{file}\n    {} statements; {}, {}\n    {}",
+            statements(path),
+            row.fate,
+            row.reason,
+            by_code(&row.messages)
+        );
+        *fates.entry(row.fate).or_default() += 1;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        wrong.extend(unknown(&name, &row.messages));
+        // A simulation that fails says where and why.
+        let silent = row.reason.is_empty() || (row.fate == "refused" && row.messages.is_empty());
+        if silent {
+            wrong.push(format!("{file}: {} without a word", row.fate));
         }
     }
-    println!(
-        "{} files, {read} can be simulated, {assembled} of them assemble",
-        found.len()
-    );
-    let mut list: Vec<_> = refused.iter().collect();
-    list.sort_by_key(|(_, (count, _))| std::cmp::Reverse(*count));
-    for (subject, (count, files)) in list {
-        println!("{count:6} in {:2} files  {subject}", files.len());
-    }
-    assert!(found.len() > 70, "the corpus has 78 files");
+    println!("{} files: {fates:?}", found.len());
+    assert!(wrong.is_empty(), "{}", wrong.concat());
 }
