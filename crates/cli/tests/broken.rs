@@ -19,7 +19,8 @@ fn seen(file: &str) -> String {
         .output()
         .unwrap();
     let code = output.status.code().unwrap();
-    let said = String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
+    let said =
+        String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
     format!("$ stiction check {file}\n{said}[{code}]\n")
 }
 

@@ -124,8 +124,8 @@ codes! {
     UnknownFunction = "unknown-function", "Correct the name of the function.";
     /// A function with too few or too many arguments.
     ArgumentCount = "argument-count", "Give the function the arguments that it takes.";
-    /// A variable that is defined by nothing but its own value, directly or through others. Circles that say more are solved.
-    CircularVariables = "circular-variables", "Give one of the variables of the circle a function of something else.";
+    /// A variable whose definition is its own value and nothing else, so that it can be anything.
+    CircularVariables = "circular-variables", "Give the variable an equation: a function of other things, or one that its value solves.";
     /// INVPSD makes a signal of random phases, which every program draws in its own way.
     RandomPhases = "random-phases", "Nothing, unless runs of different programs are to be compared: then give the signal as a SPLINE.";
 

@@ -17,7 +17,10 @@ FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2
 fn codes(text: &str) -> Vec<Code> {
     let source = Source::from_text("m.adm", text.to_string());
     let (_, diagnostics) = lint_dataset(&source);
-    diagnostics.iter().map(|diagnostic| diagnostic.code).collect()
+    diagnostics
+        .iter()
+        .map(|diagnostic| diagnostic.code)
+        .collect()
 }
 
 /// The codes that the block gets with one text in place of another.
@@ -43,17 +46,23 @@ fn gravity_is_suspicious_where_it_is_that_of_the_earth_in_another_unit() {
         let text = text.replace("JGRAV=-9806.65", value);
         codes(&text).contains(&Code::GravityUnit)
     };
-    let (millimetre, metre) = ("LENGTH=MILLIMETER, TIME=SECOND", "LENGTH=METER, TIME=SECOND");
+    let (millimetre, metre) = (
+        "LENGTH=MILLIMETER, TIME=SECOND",
+        "LENGTH=METER, TIME=SECOND",
+    );
     assert!(gravity(millimetre, "JGRAV=-9.81"));
     assert!(gravity(millimetre, "JGRAV=-386.09"));
     assert!(gravity(metre, "JGRAV=-9806.65"));
-    assert!(gravity(metre, "IGRAV=-6.9, JGRAV=-6.97"));
+    assert!(gravity(millimetre, "IGRAV=-6.9, JGRAV=-6.97"));
     assert!(gravity("LENGTH=METER, TIME=MILLISECOND", "JGRAV=-9.81"));
     // Of the moon, of a lift, none at all, and of the earth in milliseconds.
     assert!(!gravity(metre, "JGRAV=-1.62"));
     assert!(!gravity(millimetre, "JGRAV=-11000"));
     assert!(!gravity(millimetre, "JGRAV=0"));
-    assert!(!gravity("LENGTH=MILLIMETER, TIME=MILLISECOND", "JGRAV=-9.80665E-3"));
+    assert!(!gravity(
+        "LENGTH=MILLIMETER, TIME=MILLISECOND",
+        "JGRAV=-9.80665E-3"
+    ));
     // The factor of consistency alone tells millimetres; a factor of 1 does not tell anything.
     let factor = |ucf: &str, value: &str| {
         let text = format!("t\nUNITS/UCF={ucf}\nACCGRAV/JGRAV={value}\nPART/1, GROUND\n");
@@ -72,7 +81,9 @@ fn gravity_is_missed_where_friction_needs_weight() {
         codes(&text.replace("MU_DYNAMIC=0.2", friction)).contains(&Code::NoGravity)
     };
     assert!(without("MU_DYNAMIC=0.2"));
-    assert!(!without("MU_DYNAMIC=0.2, FRICTION_FORCE_PRELOAD=5, INPUTS=PRELOAD"));
+    assert!(!without(
+        "MU_DYNAMIC=0.2, FRICTION_FORCE_PRELOAD=5, INPUTS=PRELOAD"
+    ));
     assert!(!codes("t\nPART/1, GROUND\n").contains(&Code::NoGravity));
 }
 
@@ -80,7 +91,10 @@ fn gravity_is_missed_where_friction_needs_weight() {
 fn a_friction_that_is_switched_off_is_told_apart_from_one_that_is_zero() {
     let inputs = |inputs: &str| changed("MU_DYNAMIC=0.2", &format!("MU_DYNAMIC=0.2, {inputs}"));
     assert_eq!(inputs("INPUTS=ALL"), []);
-    assert_eq!(inputs("INPUTS=REACTION_FORCE:BENDING_MOMENT:TORSIONAL_MOMENT"), []);
+    assert_eq!(
+        inputs("INPUTS=REACTION_FORCE:BENDING_MOMENT:TORSIONAL_MOMENT"),
+        []
+    );
     assert_eq!(inputs("INPUTS=REACTION_FORCE"), [Code::SwitchedOff]);
     assert_eq!(inputs("INPUTS=NONE"), [Code::NoFriction]);
     assert_eq!(inputs("INPUTS=PRELOAD"), [Code::NoFriction]);
@@ -93,7 +107,9 @@ fn a_friction_that_is_switched_off_is_told_apart_from_one_that_is_zero() {
 #[test]
 fn a_motion_prescribes_friction_where_it_drives_every_freedom() {
     let prescribed = |text: Vec<Code>| text.contains(&Code::PrescribedFriction);
-    assert!(prescribed(with("MOTION/1, JOINT=1, TRANSLATION, FUNCTION=TIME")));
+    assert!(prescribed(with(
+        "MOTION/1, JOINT=1, TRANSLATION, FUNCTION=TIME"
+    )));
     assert!(prescribed(with("MOTION/1, I=1, J=20, Z, FUNCTION=TIME")));
     assert!(!prescribed(with("MOTION/1, I=20, J=1, X, FUNCTION=0")));
     let cylindrical = BLOCK.replace("TRANSLATIONAL", "CYLINDRICAL");
@@ -106,10 +122,14 @@ fn a_motion_prescribes_friction_where_it_drives_every_freedom() {
 #[test]
 fn angles_above_a_turn_and_round_are_taken_for_degrees() {
     let marker = |angles: &str| {
-        let text = format!("t\nPART/1, GROUND\nMARKER/1, PART=1, REULER={angles}\nREQUEST/1, D, I=1, J=1\n");
+        let text = format!(
+            "t\nPART/1, GROUND\nMARKER/1, PART=1, REULER={angles}\nREQUEST/1, D, I=1, J=1\n"
+        );
         let source = Source::from_text("m.adm", text.clone());
         let (_, diagnostics) = lint_dataset(&source);
-        let found = diagnostics.into_iter().find(|d| d.code == Code::DegreesWithoutD);
+        let found = diagnostics
+            .into_iter()
+            .find(|d| d.code == Code::DegreesWithoutD);
         found.map(|found| found.replacement.unwrap().text)
     };
     assert_eq!(marker("0, 90, 0").as_deref(), Some("0, 90D, 0"));
@@ -123,7 +143,8 @@ fn angles_above_a_turn_and_round_are_taken_for_degrees() {
 
 #[test]
 fn markers_are_unused_where_nothing_at_all_names_them() {
-    let unused = |more: &str| with(&format!("MARKER/7, PART=2\n{more}")).contains(&Code::UnusedMarker);
+    let unused =
+        |more: &str| with(&format!("MARKER/7, PART=2\n{more}")).contains(&Code::UnusedMarker);
     assert!(unused(""));
     for used in [
         "REQUEST/1, FORCE, I=7, J=1",

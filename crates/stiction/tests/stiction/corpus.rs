@@ -20,11 +20,7 @@ const NOT_IN_THE_LANGUAGE: [(&str, &str, &str); 8] = [
     ("prova.adm", "PART has no argument TUASORELLA", "made up"),
     ("prova.adm", "PART has no argument X", "neither XG nor VX"),
     ("prova.adm", "PART has no argument Z", "neither ZG nor VZ"),
-    (
-        "prova.adm",
-        "no function or constant is called",
-        "made up",
-    ),
+    ("prova.adm", "no function or constant is called", "made up"),
     (
         "bipendolo.adm",
         "no statement is called",
@@ -123,14 +119,22 @@ fn look(path: &Path) -> Row {
         };
     }
     if project.is_dataset_alone() {
-        let second = project.dataset().units.as_ref().and_then(|units| units.time);
+        let second = project
+            .dataset()
+            .units
+            .as_ref()
+            .and_then(|units| units.time);
         let second = second.map_or(1.0, |unit| 1.0 / unit.si());
         project.push_dynamic(0.1 * second, Some(10), None);
     }
     let folder = scratch_folder();
     let session = Session::new(&project).unwrap();
     let report = session
-        .run(&folder, RunOptions::default(), &mut Patience(Instant::now()))
+        .run(
+            &folder,
+            RunOptions::default(),
+            &mut Patience(Instant::now()),
+        )
         .unwrap();
     std::fs::remove_dir_all(folder).unwrap();
     messages.extend(report.messages);
