@@ -12,21 +12,45 @@ use stiction::{Message, Outcome, Progress, Project, RunOptions, Session, Watch};
 
 use crate::shared::scratch_folder;
 
-/// Names in the corpus that are no part of the language, and why: `file: message`.
-const NOT_IN_THE_LANGUAGE: [(&str, &str, &str); 8] = [
-    ("prova.adm", "no statement is called LEONARDO", "made up"),
-    ("prova.adm", "no statement is called LEOSILVA", "made up"),
-    ("prova.adm", "no statement is called PIRLA", "made up"),
-    ("prova.adm", "PART has no argument TUASORELLA", "made up"),
-    ("prova.adm", "PART has no argument X", "neither XG nor VX"),
-    ("prova.adm", "PART has no argument Z", "neither ZG nor VZ"),
-    ("prova.adm", "no function or constant is called", "made up"),
+/// Names in the corpus that are no part of the language: file, start of the message, and why.
+const NOT_IN_THE_LANGUAGE: [(&str, &str, &str); 10] = [
+    ("pm02.adm", "no statement is called LEONARDO", MADE_UP),
+    ("prova.adm", "no statement is called LEOSILVA", MADE_UP),
+    ("prova.adm", "no statement is called PIRLA", MADE_UP),
+    ("prova.adm", "PART has no argument TUASORELLA", MADE_UP),
     (
-        "bipendolo.adm",
-        "no statement is called",
-        "the title is missing, and the first line is taken for it",
+        "prova.adm",
+        "no function or constant is called CIAO",
+        MADE_UP,
+    ),
+    (
+        "prova.adm",
+        "no function or constant is called LEO",
+        MADE_UP,
+    ),
+    (
+        "prova.adm",
+        "no function or constant is called NAME",
+        MADE_UP,
+    ),
+    (
+        "pm03.adm",
+        "no function or constant is called A",
+        "a variable of another language",
+    ),
+    (
+        "pm03.adm",
+        "no function or constant is called COSIN",
+        "for COS",
+    ),
+    (
+        "pm03.adm",
+        "no function or constant is called VR",
+        "VR without markers",
     ),
 ];
+/// A sample that tests how another reader copes with nonsense.
+const MADE_UP: &str = "made up";
 
 /// The files of real models in a folder and below.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
