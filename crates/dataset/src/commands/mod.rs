@@ -56,22 +56,26 @@ pub fn read_commands(source: &Source) -> (CommandFile, Vec<Diagnostic>) {
     (file, diagnostics.finish())
 }
 
-/// Reports a file whose first statement is one of a dataset and no command; returns whether it is.
+/// Reports a file that begins as datasets do, with UNITS or the ground part before any command;
+/// returns whether it does.
 fn refuse_dataset(tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> bool {
-    let Some(first) = tree.statements.first() else {
+    let source = diagnostics.source;
+    let word = |token: usize| source.slice(tree.tokens[token].span());
+    let begins = |statement: &&StatementTokens| grammar(word(statement.tokens.start)).is_none();
+    let of_dataset = |statement: &&StatementTokens| {
+        let is = |token: usize, name: &str| word(token).eq_ignore_ascii_case(name);
+        let mut tokens = statement.tokens.clone();
+        is(tokens.start, "UNITS") || tokens.any(|token| is(token, "GROUND"))
+    };
+    let mut beginning = tree.statements.iter().take_while(begins);
+    let Some(found) = beginning.find(of_dataset) else {
         return false;
     };
-    let span = tree.tokens[first.tokens.start].span();
-    let word = diagnostics.source.slice(span);
-    let statement = names::find(word, STATEMENTS.iter().map(|rule| rule.name));
-    let Match::One(index) = statement else {
-        return false;
-    };
-    if grammar(word).is_some() {
-        return false;
-    }
-    let name = STATEMENTS[index].name.full;
-    let message = format!("{name} is a statement of a dataset, and this is a command file");
+    let span = tree.tokens[found.tokens.start].span();
+    let message = format!(
+        "{} is a statement of a dataset, and this is a command file",
+        source.excerpt(span)
+    );
     diagnostics
         .error(Code::WrongFileType, span, message)
         .help("a dataset has the extension .adm");
