@@ -7,8 +7,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use stiction::{
-    EnergyBalance, EnergyTerm, FrictionReport, Message, ModeReport, Outcome, Project, RunReport,
-    Severity,
+    EnergyBalance, EnergyTerm, FailedCommand, FrictionReport, Message, ModeReport, Outcome,
+    Project, RunReport, Severity,
 };
 
 use crate::arguments::RunArguments;
@@ -106,6 +106,7 @@ pub(crate) fn write(
         "exit_code": exit_of(report).code(),
         "time": report.time,
         "simulations": report.simulations,
+        "failures": report.failures.iter().map(failure_json).collect::<Vec<_>>(),
         "outputs": report.outputs,
         "warnings": report.warnings,
         "diagnostics": messages_json(warnings.iter().chain(&report.messages)),
@@ -126,6 +127,16 @@ pub(crate) fn write(
         "frictions": report.frictions.iter().map(friction_json).collect::<Vec<_>>(),
     });
     std::fs::write(folder.join("run.json"), format!("{value:#}\n"))
+}
+
+fn failure_json(failure: &FailedCommand) -> Value {
+    let (outcome, message) = words(&failure.outcome);
+    json!({
+        "command": failure.command,
+        "time": failure.time,
+        "outcome": outcome,
+        "message": message,
+    })
 }
 
 fn balance_json(balance: &EnergyBalance) -> Value {

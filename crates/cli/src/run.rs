@@ -110,6 +110,24 @@ fn folder(arguments: &RunArguments, project: &Project) -> Result<PathBuf, Failur
     Ok(folder)
 }
 
+/// When a run ended, or what failed first, when, and how far the run got after it.
+fn when(report: &RunReport) -> String {
+    let first = report.failures.first();
+    let Some(first) = first.filter(|first| first.outcome == report.outcome) else {
+        return format!("at time {}", report.time);
+    };
+    let mut text = format!("at time {} ({})", first.time, first.command);
+    let others = report.failures.len() - 1;
+    if others > 0 {
+        let plural = if others == 1 { "" } else { "s" };
+        text += &format!(", {others} command{plural} after it failed, too");
+    }
+    if report.time > first.time {
+        text += &format!("; the run went on to time {}", report.time);
+    }
+    text
+}
+
 /// Where the results are, and what friction did.
 fn tell(folder: &Path, report: &RunReport) {
     let (outcome, message) = record::words(&report.outcome);
@@ -118,8 +136,11 @@ fn tell(folder: &Path, report: &RunReport) {
     }
     let steps = &report.statistics.steps;
     let mut text = format!(
-        "{outcome} at time {}: {} outputs, {} steps, {:.2} s",
-        report.time, report.outputs, steps.steps, report.elapsed
+        "{outcome} {}: {} outputs, {} steps, {:.2} s",
+        when(report),
+        report.outputs,
+        steps.steps,
+        report.elapsed
     );
     if report.warnings > 0 {
         let plural = if report.warnings == 1 { "" } else { "s" };

@@ -271,6 +271,32 @@ fn a_failed_integration_is_5_and_keeps_the_results() {
 }
 
 #[test]
+fn a_run_that_goes_on_tells_what_failed_when_and_how_far_it_got() {
+    let model = PENDULUM.replace(
+        "END",
+        "VARIABLE/1, FUNCTION=SQRT(0.5-TIME)\n\
+         SFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=VARVAL(1)\nEND",
+    );
+    let commands = "\nFILE/MODEL=p\nSIM/DYN, END=1, STEPS=10\nVARIABLE/1, FUNCTION=0\n\
+                    SIM/DYN, END=0.9, STEPS=2\n";
+    let folder = folder("survived", &[("p.adm", &model), ("p.acf", commands)]);
+    let output = stiction(&folder, &["run", "p.acf"]);
+    assert_eq!(code(&output), 5, "{}", errors(&output));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
+    let failure = &record["failures"][0];
+    let time = failure["time"].as_f64().unwrap();
+    assert!(time > 0.4 && time <= 0.5, "{record}");
+    assert_eq!(failure["command"], "SIM/DYN, END=1, STEPS=10");
+    assert_eq!(failure["outcome"], "integration failed");
+    assert_eq!(record["time"], 0.9);
+    let expected = format!(
+        "integration failed at time {time} (SIM/DYN, END=1, STEPS=10); the run went on to time 0.9"
+    );
+    assert!(said.starts_with(&expected), "{said}");
+}
+
+#[test]
 fn commands_go_on_from_each_other_and_what_cannot_be_done_is_told_before() {
     let commands = "
 FILE/MODEL=C:\\Users\\someone\\models\\p, OUTPUT_PREFIX=swing

@@ -107,7 +107,7 @@ impl<'p, W: Write> Journal<'p, W> {
         Ok(())
     }
 
-    /// A simulation that has failed: how, and the message about it where there is one.
+    /// A command that has failed: how, and the message about it where there is one.
     pub(crate) fn failed(
         &mut self,
         outcome: &Outcome,
@@ -115,10 +115,10 @@ impl<'p, W: Write> Journal<'p, W> {
     ) -> Result<(), OutputError> {
         self.messages.extend(message);
         let written = match outcome {
-            Outcome::AssemblyFailed(text) | Outcome::IntegrationFailed(text) => {
-                self.writer.error(text)
-            }
-            _ => Ok(()),
+            Outcome::Refused(text)
+            | Outcome::AssemblyFailed(text)
+            | Outcome::IntegrationFailed(text) => self.writer.error(text),
+            Outcome::Completed | Outcome::Interrupted => Ok(()),
         };
         self.check(written)
     }

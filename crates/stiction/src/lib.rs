@@ -79,4 +79,6 @@ pub use levels::{LevelError, Levels};
 pub use message::{InputError, Message};
 pub use project::Project;
 pub use report::{FrictionReport, friction_table};
-pub use session::{Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch};
+pub use session::{
+    FailedCommand, Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch,
+};

@@ -12,7 +12,7 @@ use crate::loader;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::refusal;
-use crate::settings;
+use crate::settings::{self, SpanError};
 
 /// A checked dataset with the commands of its command file.
 ///
@@ -246,13 +246,15 @@ impl Project {
                 }
                 CommandKind::Simulate(simulate) => match settings::span(simulate, time) {
                     Ok(span) => time = span.map_or(time, |span| span.end),
-                    Err(text) => messages.push(self.refuse(text, step)),
+                    Err(error) => messages.extend(self.foreseen(error, step)),
                 },
                 CommandKind::Eigensolution(asked) => {
                     if let Some((id, _)) = asked.reference
                         && dataset.markers.by_id(id).is_none()
                     {
-                        messages.push(self.refuse(format!("there is no MARKER/{id}"), step));
+                        let text = format!("there is no MARKER/{id}");
+                        let missing = Code::MissingElement;
+                        messages.push(self.about(step, Severity::Error, missing, text, None));
                     }
                 }
                 CommandKind::Stop => break,
@@ -270,18 +272,35 @@ impl Project {
         }
     }
 
-    /// An error about a command.
-    pub(crate) fn refuse(&self, message: String, step: &SourcedCommand) -> Message {
+    /// A message about a command.
+    pub(crate) fn about(
+        &self,
+        step: &SourcedCommand,
+        severity: Severity,
+        code: Code,
+        text: String,
+        help: Option<&str>,
+    ) -> Message {
         let source = &self.sources[step.source];
         let span = step.command.span;
-        let diagnostic = Diagnostic::new(
-            Severity::Error,
-            Code::InvalidValue,
-            source.name(),
-            span,
-            message,
-        );
+        let mut diagnostic = Diagnostic::new(severity, code, source.name(), span, text);
+        diagnostic.help = help.map(str::to_owned);
         Message::new(diagnostic, source)
+    }
+
+    /// What a SIMULATE is told before the run that cannot be carried out if those before it run to
+    /// their ends. A failure or a sensor may end one of them earlier, so that an end that is over
+    /// is judged when its turn comes; a sensor is expected to.
+    fn foreseen(&self, error: SpanError, step: &SourcedCommand) -> Option<Message> {
+        let severity = match error {
+            SpanError::Past { .. } if self.dataset.sensors.iter().any(|s| s.returns) => {
+                return None;
+            }
+            SpanError::Past { .. } => Severity::Warning,
+            SpanError::Outputs(_) => Severity::Error,
+        };
+        let text = error.to_string();
+        Some(self.about(step, severity, error.code(), text, Some(error.help())))
     }
 
     /// Makes a change of a command; returns what is to be said about it.

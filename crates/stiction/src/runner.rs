@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 use std::time::Instant;
 
-use dataset::{Change, Code, CommandKind, Dataset, Simulate, SimulationKind};
+use dataset::{Change, Code, CommandKind, Dataset, Severity, Simulate, SimulationKind};
 use mechanics::{Assembly, AssemblyError, Ending, Simulation};
 use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
 
@@ -20,7 +20,7 @@ use crate::project::{Project, SourcedCommand, second};
 use crate::recorder::{Observe, Recorder, Stop};
 use crate::report;
 use crate::sensors::{Effect, Sensing, Sensors};
-use crate::session::{Outcome, OutputError, RunOptions, RunReport, Session, Watch};
+use crate::session::{FailedCommand, Outcome, OutputError, RunOptions, RunReport, Session, Watch};
 use crate::settings::{self, TimeSpan};
 
 /// Rows of the integrator's table, about, for each simulation.
@@ -41,6 +41,7 @@ pub(crate) struct Runner<'a> {
     /// Typical length of the assembled model.
     pub(crate) length: f64,
     pub(crate) simulations: usize,
+    failures: Vec<FailedCommand>,
     pub(crate) modes: Vec<ModeReport>,
     pub(crate) started: Instant,
     pub(crate) last_end: f64,
@@ -157,6 +158,7 @@ impl<'a> Runner<'a> {
             instant: Recorded::Nothing,
             length: 1.0,
             simulations: 0,
+            failures: Vec::new(),
             modes: Vec::new(),
             started: Instant::now(),
             last_end: last_end(project),
@@ -182,14 +184,12 @@ impl<'a> Runner<'a> {
         if project.is_dataset_alone() {
             self.log_model()?;
         }
-        // The first failure is how the run ends.
-        let mut failed = None;
         for step in project.steps() {
             self.log.command(&step.command.echo)?;
             let done = match &step.command.kind {
                 CommandKind::Model { .. } => self.log_model().map_err(Halt::from),
                 CommandKind::Change(change) => self.change(change, step),
-                CommandKind::Simulate(simulate) => self.simulate(simulate, watch),
+                CommandKind::Simulate(simulate) => self.simulate(simulate, step, watch),
                 CommandKind::Eigensolution(asked) => self.eigensolution(asked),
                 // The commands of the file follow.
                 CommandKind::CommandFile { .. } => Ok(()),
@@ -198,10 +198,17 @@ impl<'a> Runner<'a> {
             match done {
                 Ok(()) => {}
                 Err(Halt::Ended(Outcome::Completed)) => break,
-                Err(Halt::Ended(outcome)) => return Ok(outcome),
+                Err(Halt::Ended(outcome)) => {
+                    self.log.failed(&outcome, None)?;
+                    return Ok(outcome);
+                }
                 Err(Halt::Failed(outcome, message)) => {
+                    self.failures.push(FailedCommand {
+                        command: step.command.echo.clone(),
+                        time: self.simulation.state().time,
+                        outcome: outcome.clone(),
+                    });
                     self.log.failed(&outcome, message.map(|message| *message))?;
-                    failed.get_or_insert(outcome);
                     if self.stops_on_failure() {
                         break;
                     }
@@ -211,7 +218,9 @@ impl<'a> Runner<'a> {
                 Err(Halt::Output(error)) => return Err(error),
             }
         }
-        Ok(failed.unwrap_or(Outcome::Completed))
+        // The first failure is how the run ends.
+        let first = self.failures.first();
+        Ok(first.map_or(Outcome::Completed, |failure| failure.outcome.clone()))
     }
 
     /// PREFERENCES/SIMFAIL: whether a simulation that fails ends the run. As in Adams it does not by
@@ -257,21 +266,36 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn simulate(&mut self, simulate: &Simulate, watch: &mut dyn Watch) -> Result<(), Halt> {
+    fn simulate(
+        &mut self,
+        simulate: &Simulate,
+        step: &SourcedCommand,
+        watch: &mut dyn Watch,
+    ) -> Result<(), Halt> {
         use SimulationKind as K;
         let start = self.simulation.state().time;
-        let span = settings::span(simulate, start).map_err(|text| Halt::refused(&text))?;
+        let span = settings::span(simulate, start).map_err(|error| {
+            let (code, text) = (error.code(), error.to_string());
+            let project = self.session.project;
+            let message = project.about(step, Severity::Error, code, text, Some(error.help()));
+            Halt::located(Outcome::Refused, &message)
+        })?;
         let mode = match (simulate.kind, span) {
             (K::Static | K::QuasiStatic, None) => Mode::Static,
             (K::Static | K::QuasiStatic, Some(_)) => Mode::QuasiStatic,
-            _ => Mode::Dynamic,
+            (K::InitialConditions, _) => Mode::InitialConditions,
+            (K::Kinematic | K::Transient, _) => Mode::Kinematic,
+            (K::Dynamic, _) => Mode::Dynamic,
         };
         self.prepare(mode)?;
-        if mode != Mode::Dynamic {
+        if matches!(mode, Mode::Static | Mode::QuasiStatic) {
             return self.equilibria(span, watch);
         }
-        self.record_start()?;
         let freedoms = self.simulation.system().degrees_of_freedom();
+        if mode == Mode::Kinematic && freedoms > 0 {
+            self.prepare(Mode::Dynamic)?;
+        }
+        self.record_start()?;
         let kind = match (simulate.kind, freedoms) {
             (K::InitialConditions, _) => return Ok(()),
             (K::Kinematic | K::Transient, 0) => DataKind::Kinematic,
@@ -446,8 +470,8 @@ impl<'a> Runner<'a> {
         let (status, text) = match &outcome {
             Outcome::Completed => ("Successful", None),
             Outcome::Interrupted => ("Interrupted", Some("interrupted; results so far are kept")),
-            Outcome::Refused(text) => ("Not simulated", Some(text.as_str())),
             // What has failed has been told.
+            Outcome::Refused(_) => ("Not simulated", None),
             Outcome::AssemblyFailed(_) => ("Assembly failed", None),
             Outcome::IntegrationFailed(_) => ("Integration failed", None),
         };
@@ -476,6 +500,7 @@ impl<'a> Runner<'a> {
             outcome,
             time: self.simulation.state().time,
             simulations: self.simulations,
+            failures: self.failures,
             outputs: count,
             warnings,
             messages: self.log.into_messages(),

@@ -43,7 +43,7 @@ pub enum Outcome {
     Completed,
     /// [`Watch::progress`] stopped it.
     Interrupted,
-    /// A command asks for what is not simulated.
+    /// A command asks for what cannot be simulated.
     Refused(String),
     /// Initial positions, velocities, accelerations or reactions could not be found.
     AssemblyFailed(String),
@@ -51,15 +51,28 @@ pub enum Outcome {
     IntegrationFailed(String),
 }
 
+/// A simulation or LINEAR that has failed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FailedCommand {
+    /// The command on one line, as the message file echoes it.
+    pub command: String,
+    /// Time of the model when it failed.
+    pub time: f64,
+    /// How.
+    pub outcome: Outcome,
+}
+
 /// What a run did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunReport {
-    /// How it ended.
+    /// How it ended: the first failure, though the run may have gone on after it.
     pub outcome: Outcome,
     /// Time of the last output.
     pub time: f64,
     /// Number of simulations that ran to their end.
     pub simulations: usize,
+    /// The commands that failed, in their order.
+    pub failures: Vec<FailedCommand>,
     /// Number of outputs written.
     pub outputs: usize,
     /// Number of warnings in the message file.

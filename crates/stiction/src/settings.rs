@@ -1,7 +1,9 @@
 //! INTEGRATOR, EQUILIBRIUM and SIMULATE to settings and output times; what is not honoured is
 //! listed.
 
-use dataset::{Equilibrium, IndexReduction, Integrator, IntegratorMethod, Kinematics, Simulate};
+use dataset::{
+    Code, Equilibrium, IndexReduction, Integrator, IntegratorMethod, Kinematics, Simulate,
+};
 use mechanics::{EquilibriumSettings, Formulation, Settings};
 
 /// Error tolerance without an INTEGRATOR statement.
@@ -151,20 +153,47 @@ pub(crate) struct TimeSpan {
     pub(crate) is_given: bool,
 }
 
+/// Why a SIMULATE cannot be carried out at a time.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum SpanError {
+    /// Its end is over.
+    #[error("END = {end} is not after the time reached so far, {start}")]
+    Past { end: f64, start: f64 },
+    /// So many outputs.
+    #[error("{0:.3e} outputs are too many: at most {MOST_OUTPUTS:e} are written")]
+    Outputs(f64),
+}
+
+impl SpanError {
+    /// The code of its message.
+    pub(crate) const fn code(self) -> Code {
+        match self {
+            Self::Past { .. } => Code::OutOfRange,
+            Self::Outputs(_) => Code::InvalidValue,
+        }
+    }
+
+    /// What to write instead.
+    pub(crate) const fn help(self) -> &'static str {
+        match self {
+            Self::Past { .. } => "END is a time; DURATION is the length of a simulation",
+            Self::Outputs(_) => "write a longer DTOUT",
+        }
+    }
+}
+
 /// The time span of a SIMULATE that starts at `start`; `None` for one that takes no time.
 ///
 /// # Errors
-/// What is wrong with it, in words.
-pub(crate) fn span(simulate: &Simulate, start: f64) -> Result<Option<TimeSpan>, String> {
+/// What is wrong with it.
+pub(crate) fn span(simulate: &Simulate, start: f64) -> Result<Option<TimeSpan>, SpanError> {
     let end = match (simulate.end, simulate.duration) {
         (Some(end), _) => end,
         (None, Some(duration)) => start + duration,
         (None, None) => return Ok(None),
     };
     if !(end > start) {
-        return Err(format!(
-            "the simulation would end at {end}, but it is {start} already"
-        ));
+        return Err(SpanError::Past { end, start });
     }
     let (step, is_given) = match (simulate.steps, simulate.dtout) {
         (_, Some(dtout)) => (dtout.min(end - start), true),
@@ -174,9 +203,7 @@ pub(crate) fn span(simulate: &Simulate, start: f64) -> Result<Option<TimeSpan>, 
     // An interval that is whole but for rounding is not split.
     let count = ((end - start) / step - 1e-9).ceil().max(1.0);
     if !(count <= MOST_OUTPUTS) {
-        return Err(format!(
-            "{count} outputs are too many; at most {MOST_OUTPUTS} are written"
-        ));
+        return Err(SpanError::Outputs(count));
     }
     Ok(Some(TimeSpan {
         end,

@@ -163,7 +163,7 @@ impl Parser<'_, '_> {
             };
             match value.filter(|value| *value >= least) {
                 Some(value) => values.push((value, self.span(self.at))),
-                None => return Err(self.expected(name, what)),
+                None => return Err(self.expected(name, self.whole(what))),
             }
             self.at += 1;
             let more = self.kind(self.at) == Some(TokenKind::Comma) && self.number_at(self.at + 1);
@@ -177,6 +177,21 @@ impl Parser<'_, '_> {
         }
         self.end_of_value(name)?;
         Ok(Value::Integers(values))
+    }
+
+    /// What a whole number in place of the present item has to be.
+    fn whole(&self, what: &'static str) -> &'static str {
+        let digits = self
+            .slice(self.at)
+            .bytes()
+            .all(|byte| byte.is_ascii_digit());
+        let large = digits && self.slice(self.at).parse::<u32>().is_err();
+        // The greatest number of a `u32`.
+        if large {
+            "a number up to 4294967295"
+        } else {
+            what
+        }
     }
 
     fn words(&mut self, name: &str, several: bool) -> Result<Value, Refused> {

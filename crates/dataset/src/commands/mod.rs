@@ -9,7 +9,7 @@ use crate::model::{Command, CommandFile, CommandKind, Simulate, SimulationKind};
 use crate::names::{self, Match, Name};
 use crate::reader::{RawHead, find};
 use crate::reading::{Head, Reading};
-use crate::source::{Source, Span};
+use crate::source::Source;
 use crate::statements::{self, STATEMENTS};
 use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items, join};
 use crate::{activity, amendment, change};
@@ -39,14 +39,10 @@ pub fn read_commands(source: &Source) -> (CommandFile, Vec<Diagnostic>) {
         return (CommandFile::default(), diagnostics.finish());
     }
     let mut buffer = Vec::new();
-    let mut time = 0.0;
     for statement in &tree.statements {
         let Some(command) = read_command(&tree, statement, &mut buffer, &mut diagnostics) else {
             continue;
         };
-        if let CommandKind::Simulate(simulate) = &command.kind {
-            advance(&mut time, simulate, command.span, &mut diagnostics);
-        }
         let stops = command.kind == CommandKind::Stop;
         file.commands.push(command);
         if stops {
@@ -197,22 +193,6 @@ fn first_lines(source: &Source, tree: &SyntaxTree) -> Option<Command> {
         echo: text(span),
         span: prefix.map_or(span, |prefix| span.to(prefix)),
     })
-}
-
-/// Time goes forward from one SIMULATE to the next.
-fn advance(time: &mut f64, simulate: &Simulate, span: Span, diagnostics: &mut Diagnostics) {
-    if let Some(end) = simulate.end {
-        if end <= *time {
-            let message = format!("END = {end} is not after the time reached so far, {time}");
-            diagnostics
-                .error(Code::OutOfRange, span, message)
-                .help("END is a time; DURATION is the length of a simulation");
-            return;
-        }
-        *time = end;
-    } else if let Some(duration) = simulate.duration {
-        *time += duration;
-    }
 }
 
 #[derive(Clone, Copy)]

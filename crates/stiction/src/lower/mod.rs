@@ -42,7 +42,11 @@ pub(crate) use outputs::{Column, Outputs, Unit};
 /// The analysis that functions are lowered for: what MODE gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
-    /// Dynamics, and all that has no number of its own here.
+    /// Kinematics: motion without degrees of freedom.
+    Kinematic,
+    /// Initial conditions.
+    InitialConditions,
+    /// Dynamics.
     Dynamic,
     /// An equilibrium.
     Static,
@@ -56,6 +60,8 @@ impl Mode {
     /// The value of MODE.
     const fn value(self) -> f64 {
         match self {
+            Self::Kinematic => 1.0,
+            Self::InitialConditions => 3.0,
             Self::Dynamic => 4.0,
             Self::Static => 5.0,
             Self::QuasiStatic => 6.0,

@@ -239,6 +239,16 @@ SIMULATE/DYNAMIC, END=3, STEPS=4
     let (report, results, log) = run_with_log(&project, RunOptions::default());
     assert!(matches!(report.outcome, Outcome::IntegrationFailed(_)));
     assert_eq!((report.simulations, report.time), (2, 3.0));
+    let [failure] = report.failures.as_slice() else {
+        panic!("{:?}", report.failures)
+    };
+    assert_eq!(failure.command, "SIMULATE/DYNAMIC, END=2, STEPS=4");
+    assert_eq!(failure.outcome, report.outcome);
+    assert!(
+        failure.time > 1.25 && failure.time <= 1.5,
+        "{}",
+        failure.time
+    );
     assert_eq!(log.matches("START: ERROR").count(), 1, "{log}");
     assert!(!log.contains("Finished -----"));
     assert_eq!(results.block("dynamic_002").unwrap().times, [1.25]);
@@ -350,4 +360,85 @@ fn a_motion_changes_its_level_and_statements_are_listed() {
         );
     }
     assert!(log.contains("  MOTION/1\n  , JOINT=1\n"), "{log}");
+}
+
+/// An end that is over when its turn comes is a failure of that command alone; before the run it is
+/// told of where nothing is expected to shorten a simulation.
+#[test]
+fn an_end_is_judged_when_its_turn_comes() {
+    let commands = "
+FILE/MODEL=slider
+SIMULATE/DYNAMIC, END=1, STEPS=4
+SIMULATE/STATIC, END=1, STEPS=4
+SIMULATE/DYNAMIC, END=2, STEPS=4
+";
+    let file = with_commands("over", commands);
+    let project = Project::load(&file).unwrap();
+    let session = stiction::Session::new(&project).unwrap();
+    let told: Vec<String> = session.warnings().iter().map(ToString::to_string).collect();
+    let [told] = told.as_slice() else {
+        panic!("{told:?}")
+    };
+    assert!(
+        told.contains("over.acf:4:1: warning[out-of-range]: END = 1 is not after"),
+        "{told}"
+    );
+    let (report, results, log) = run_with_log(&project, RunOptions::default());
+    let Outcome::Refused(text) = &report.outcome else {
+        panic!("{:?}", report.outcome)
+    };
+    assert!(
+        text.contains("over.acf:4:1: error[out-of-range]: END = 1 is not after the time"),
+        "{text}"
+    );
+    assert_eq!((report.simulations, report.time), (2, 2.0));
+    assert_eq!(log.matches("START: ERROR").count(), 1, "{log}");
+    assert!(results.block("dynamic_002").is_some());
+    let stopping = commands.replacen("SIM", "PREFERENCES/SIMFAIL=STOPCF\nSIM", 1);
+    let project = Project::load(&with_commands("over", &stopping)).unwrap();
+    let (report, _) = run(&project, RunOptions::default());
+    assert_eq!((report.simulations, report.time), (1, 1.0));
+
+    // One that fails is run again from where it has stopped.
+    let commands = "
+FILE/MODEL=slider
+VARIABLE/1, FUNCTION=SQRT(0.5-TIME)
+SIMULATE/DYNAMIC, END=2, STEPS=4
+VARIABLE/1, FUNCTION=0
+SIMULATE/DYNAMIC, END=2, STEPS=4
+";
+    let project = Project::load(&with_commands("again2", commands)).unwrap();
+    let (report, _) = run(&project, RunOptions::default());
+    assert!(matches!(report.outcome, Outcome::IntegrationFailed(_)));
+    assert_eq!((report.failures.len(), report.time), (1, 2.0));
+}
+
+/// Each analysis has its number.
+#[test]
+fn functions_are_told_the_analysis() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mode-input");
+    std::fs::create_dir_all(&folder).unwrap();
+    let model = CRANK.replace("END\n", "REQUEST/1, F2=MODE\nEND\n");
+    std::fs::write(folder.join("crank.adm"), model).unwrap();
+    let commands = "\nFILE/MODEL=crank\nSIM/INITIAL\nSIM/KIN, END=1, STEPS=1\n\
+                    SIM/TRA, END=2, STEPS=1\nSIM/DYN, END=3, STEPS=1\nSIM/STAT\n\
+                    SIM/STAT, END=4, STEPS=1\nDEACTIVATE/MOTION, ID=1\n\
+                    SIM/KIN, END=5, STEPS=1\n";
+    let file = folder.join("mode.acf");
+    std::fs::write(&file, commands).unwrap();
+    let (report, results) = run(&Project::load(&file).unwrap(), RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed);
+    let column = results.column("REQUEST_1.F2").unwrap();
+    for (block, mode) in [
+        ("initialConditions_001", 3.0),
+        ("kinematic_001", 1.0),
+        ("kinematic_002", 1.0),
+        ("dynamic_001", 4.0),
+        ("static_001", 5.0),
+        ("quasiStatic_001", 6.0),
+        ("dynamic_002", 4.0),
+    ] {
+        let found = results.block(block).unwrap().column(column).last();
+        assert_eq!(found, Some(mode), "{block}");
+    }
 }

@@ -311,6 +311,15 @@ fn sensors_end_simulations_and_runs() {
     let event = format!("SENSOR/4 at time {ended}");
     assert!(returned.messages.contains(&event), "{}", returned.messages);
 
+    // The first simulation may be taken up again to its own end.
+    let again = run_commands(
+        &sensor("GE, VALUE=1, ERROR=1E-6, RETURN, FUNCTION=VZ(20)"),
+        "SIMULATE/DYNAMIC, END=1, STEPS=100\nDEACTIVATE/SENSOR, ID=4\n\
+         SIMULATE/DYNAMIC, END=1, STEPS=10",
+    );
+    assert_eq!(again.report.outcome, Outcome::Completed);
+    assert_eq!((again.report.simulations, again.report.time), (2, 1.0));
+
     // EQ takes a passage between two outputs; FRICTION(7, 26) is BETA, 1 once the block slides.
     for rest in [
         "EQ, VALUE=1, ERROR=1E-9, HALT, FUNCTION=VZ(20)",
