@@ -217,7 +217,8 @@ impl Instant {
             multipliers,
             &mut self.matrix,
         );
-        self.factors.factor(&self.matrix).map_err(Failure::Singular)
+        let factored = self.factors.factor(&self.matrix);
+        factored.map_err(|singular| system.without_solution(singular))
     }
 
     /// Right-hand side: forces less inertia, and what the constraints lack.
@@ -302,6 +303,15 @@ impl Instant {
 }
 
 impl System {
+    /// Why a matrix has no inverse: a force or slope that is not finite makes any matrix look so.
+    pub(crate) fn without_solution(&mut self, singular: Singular) -> Failure {
+        let element = self.find_not_a_number();
+        match element.or_else(|| self.find_infinite_slope()) {
+            None => Failure::Singular(singular),
+            element => Failure::NotANumber { element },
+        }
+    }
+
     /// Names the element whose function is not a number at the instant evaluated last.
     pub(crate) fn find_not_a_number(&mut self) -> Option<Label> {
         for place in 0..self.model.forces.len() {
@@ -471,7 +481,7 @@ impl System {
 /// Says that an element's value is not a number.
 pub(crate) fn not_a_number(element: Option<&Label>) -> String {
     match element {
-        Some(element) => format!("{element} gives a value that is not a finite number"),
+        Some(element) => format!("{element} gives a value or slope that is not a finite number"),
         None => "the reactions are not finite numbers".to_owned(),
     }
 }

@@ -331,9 +331,8 @@ impl Dynamics {
                 let weights = Weights::step(gamma);
                 self.system
                     .assemble(rows, weights, &self.change, &self.trial, &mut self.matrix);
-                self.factors
-                    .factor(&self.matrix)
-                    .map_err(Failure::Singular)?;
+                let factored = self.factors.factor(&self.matrix);
+                factored.map_err(|singular| self.system.without_solution(singular))?;
                 self.factored = Some(gamma);
             }
             self.factors.solve(&mut self.right);

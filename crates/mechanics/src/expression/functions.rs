@@ -154,9 +154,14 @@ fn power(x: f64, y: f64) -> f64 {
     }
 }
 
-/// `∂(x^y)/∂x`, where a zero factor wins over an infinite one.
+/// `∂(x^y)/∂x`, where a zero factor wins over an infinite one. At zero a root has no finite slope,
+/// which would help no iteration: it counts as none, as that of SQRT does.
 fn power_slope(x: f64, y: f64) -> f64 {
-    if y == 0.0 { 0.0 } else { y * power(x, y - 1.0) }
+    if y == 0.0 || (x == 0.0 && 0.0 < y && y < 1.0) {
+        0.0
+    } else {
+        y * power(x, y - 1.0)
+    }
 }
 
 pub(super) fn binary<T: Scalar>(function: Binary, a: T, b: T) -> T {

@@ -100,6 +100,25 @@ impl System {
             .evaluate(&mut self.registers, |input| self.inputs.read(input))
     }
 
+    /// Names the force whose function has a slope that is not finite.
+    pub(crate) fn find_infinite_slope(&mut self) -> Option<crate::model::Label> {
+        for place in 0..self.model.forces.len() {
+            self.force_value(place);
+            let force = &self.model.forces[place];
+            let mut finite = true;
+            let slopes = &mut self.adjoints;
+            force
+                .function
+                .gradient(&self.registers, slopes, |_, slope| {
+                    finite &= slope.is_finite();
+                });
+            if !finite {
+                return Some(force.label.clone());
+            }
+        }
+        None
+    }
+
     /// Generalised force of a single-component force of one unit, for outputs.
     pub(crate) fn force_direction(&self, force: &SingleForce) -> Local {
         direction(force.kind, &self.force_frames(force))
