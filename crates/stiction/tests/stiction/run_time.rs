@@ -340,3 +340,35 @@ fn sensors_end_simulations_and_runs() {
     assert_eq!(printed.report.time, 1.0);
     assert_eq!(printed.messages.matches("SENSOR/4 at time").count(), 1);
 }
+
+#[test]
+fn a_function_without_a_finite_value_is_named_and_not_the_mechanism() {
+    let slider = "A slider\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2\nJOINT/1, TRANSLATIONAL, I=20, J=1
+SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=";
+    let folder = crate::shared::scratch_folder();
+    let file = folder.join("model.adm");
+    std::fs::write(&file, format!("{slider}1/(TIME-0.5)\nEND\n")).unwrap();
+    let mut project = stiction::Project::load(&file).unwrap();
+    project.push_dynamic(1.0, Some(10), None);
+    let (report, _, log) = crate::shared::run_with_log(&project, stiction::RunOptions::default());
+    assert_ne!(report.outcome, stiction::Outcome::Completed);
+    assert!(
+        log.contains("SFORCE/1 gives a value or slope that is not"),
+        "{log}"
+    );
+
+    // A root at zero has no slope there; 2 z'' = 10 - |z|^0.5 starts with 5.
+    let results = crate::shared::run_text(
+        &format!("{slider}10-ABS(DZ(20,1))**0.5\nEND\n"),
+        0.1,
+        2,
+        Some(1e-8),
+    );
+    // z = 2.5 t² - ∫∫ √(2.5) t / 2 = 0.025 - 0.2635e-3 / 2 at 0.1, the next term 1e-6 at most.
+    let z = *results.get("PART_2_XFORM.Z").unwrap().last().unwrap();
+    assert!(
+        (z - (0.025 - 2.5_f64.sqrt() * 1e-3 / 12.0)).abs() < 2e-6,
+        "{z}"
+    );
+}
