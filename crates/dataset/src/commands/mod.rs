@@ -9,7 +9,7 @@ use crate::model::{Command, CommandFile, CommandKind, Simulate, SimulationKind};
 use crate::names::{self, Match, Name};
 use crate::reader::{RawHead, find};
 use crate::reading::{Head, Reading};
-use crate::source::Source;
+use crate::source::{Source, Span};
 use crate::statements::{self, STATEMENTS};
 use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items, join};
 use crate::{activity, amendment, change};
