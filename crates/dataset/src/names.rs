@@ -50,22 +50,27 @@ pub(crate) fn find(word: &str, names: impl Iterator<Item = Name> + Clone) -> Mat
     }
 }
 
-/// The name with the fewest edits from `word`, if these are at most a third of its letters.
+/// The shortest name that `word` begins, else the name with the fewest edits from it, if these are
+/// at most a third of its letters.
 pub(crate) fn nearest(
     word: &str,
     names: impl Iterator<Item = &'static str>,
 ) -> Option<&'static str> {
-    if word.len() > LONGEST_NAME {
+    if word.is_empty() || word.len() > LONGEST_NAME {
         return None;
     }
+    let begins = |name: &str| shared_start(word, name) == word.len();
     let most = |name: &str| 1.max(name.len().max(word.len()) / 3);
     names
-        .filter(|name| name.len().abs_diff(word.len()) <= most(name))
+        .filter(|name| begins(name) || name.len().abs_diff(word.len()) <= most(name))
         .map(|name| (edits(word.as_bytes(), name.as_bytes()), name))
-        .filter(|(edits, name)| *edits <= most(name))
+        .filter(|(edits, name)| begins(name) || *edits <= most(name))
         .filter(|(edits, name)| *edits < name.len())
         // Of several, the one that starts like the word is meant.
-        .min_by_key(|(edits, name)| (*edits, usize::MAX - shared_start(word, name)))
+        .min_by_key(|(edits, name)| {
+            let unlike = usize::MAX - shared_start(word, name);
+            (!begins(name), *edits, unlike)
+        })
         .map(|(_, name)| name)
 }
 
@@ -137,6 +142,9 @@ mod tests {
         assert_eq!(nearest("PRAT"), Some("PART"));
         assert_eq!(nearest("RESULT"), Some("RESULTS"));
         assert_eq!(nearest("XYZZY"), None);
+        assert_eq!(nearest("RESUL"), Some("RESULTS"));
+        assert_eq!(nearest("PA"), Some("PART"));
+        assert_eq!(nearest(""), None);
     }
 
     #[test]

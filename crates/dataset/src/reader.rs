@@ -194,6 +194,8 @@ pub(crate) struct RawHead {
     pub(crate) head: Span,
     /// The item that should be the identifier.
     pub(crate) number: Option<Item>,
+    /// Whether a `/` stands between the name and what follows.
+    slash: bool,
     /// The position of the first item behind it.
     pub(crate) rest: usize,
 }
@@ -218,14 +220,14 @@ impl RawHead {
         let slash = items
             .get(1)
             .is_some_and(|item| item.kind() == TokenKind::Slash);
-        let number = items
-            .get(2)
-            .filter(|item| slash && item.kind() == TokenKind::Number);
+        let number = items.get(1 + usize::from(slash));
+        let number = number.filter(|item| item.kind() == TokenKind::Number);
         let rest = 1 + usize::from(slash) + usize::from(number.is_some());
         Some(Self {
             name: first.span(),
             head: first.span().to(items[rest - 1].span()),
             number: number.copied(),
+            slash,
             rest,
         })
     }
@@ -248,13 +250,24 @@ impl RawHead {
             return 0;
         }
         let text = diagnostics.source.slice(number.span());
+        if !self.slash {
+            let between = Span::new(self.name.end, number.span().start);
+            let message = format!("a `/` is missing between {name} and its number");
+            let shown = diagnostics.source.excerpt(number.span());
+            diagnostics
+                .error(Code::InvalidId, self.head, message)
+                .help(format!("write {name}/{shown}"))
+                .replace(between, "/");
+        }
         if let Some(id) = text.parse().ok().filter(|id| *id > 0) {
             return id;
         }
         let shown = diagnostics.source.excerpt(number.span());
         let message =
             format!("{name}/{shown}: numbers of elements are whole, from 1 to 4294967295");
-        diagnostics.error(Code::InvalidId, number.span(), message);
+        diagnostics
+            .error(Code::InvalidId, number.span(), message)
+            .help("give it a number up to 4294967295, here and where it is referred to");
         0
     }
 }

@@ -186,7 +186,7 @@ impl Loader {
 
     fn model(&mut self, folder: &Path, path: &str, prefix: Option<&str>, naming: &Naming) {
         if self.dataset.is_some() {
-            let message = "a second model in one run is not supported yet".to_owned();
+            let message = "a second model in one run is not supported".to_owned();
             let help = Some("use one command file for each model");
             self.report(Code::UnsupportedStatement, "", Some(naming), message, help);
             return;

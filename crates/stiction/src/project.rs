@@ -171,10 +171,9 @@ impl Project {
     /// ```
     pub fn simulation(&self) -> Result<mechanics::Simulation, InputError> {
         let acting = refusal::acting(&self.dataset, self.model_source().name());
-        if acting.is_empty() {
-            self.as_given()
-        } else {
-            Err(self.refused(acting))
+        match acting {
+            None => self.as_given(),
+            Some(error) => Err(self.refused(vec![error])),
         }
     }
 

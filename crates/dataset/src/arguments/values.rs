@@ -6,7 +6,7 @@ use crate::expression;
 use crate::keywords::{Kind, Value};
 use crate::names::{self, Match};
 use crate::source::Span;
-use crate::syntax::{TokenKind, join, number_value};
+use crate::syntax::{TokenKind, join, number_value, with_exponent};
 use std::borrow::Cow;
 
 impl Parser<'_, '_> {
@@ -78,8 +78,7 @@ impl Parser<'_, '_> {
             }
             let text = self.slice(self.at);
             let Some(value) = number_value(text) else {
-                let message = format!("`{text}` is not a number");
-                return Err(self.refuse(self.at, message));
+                return Err(self.not_a_number(self.span(self.at)));
             };
             if !value.is_finite() {
                 let message = format!(
@@ -111,10 +110,37 @@ impl Parser<'_, '_> {
                 values.len()
             );
             let span = self.span(first).to(self.span(self.at - 1));
-            self.diagnostics.error(Code::InvalidValue, span, message);
+            let error = self.diagnostics.error(Code::InvalidValue, span, message);
+            // `1,5` for 1.5: digits on both sides of one comma.
+            let written = self.source.slice(span);
+            let decimal = written.replacen(',', ".", 1);
+            if most == 1 && values.len() == 2 && decimal.parse::<f64>().is_ok() {
+                error
+                    .help(format!("decimals follow a point: write {decimal}"))
+                    .replace(span, decimal);
+            }
             return Err(Refused);
         }
         Ok(Value::Reals(values))
+    }
+
+    /// Reports digits with something else among or behind them.
+    fn not_a_number(&mut self, span: Span) -> Refused {
+        let message = format!("`{}` is not a number", self.source.excerpt(span));
+        let text = self.source.slice(span);
+        let error = self.diagnostics.error(Code::InvalidValue, span, message);
+        if let Some(number) = with_exponent(text) {
+            error
+                .help(format!("D means degrees; with an exponent write {number}"))
+                .replace(span, number);
+        } else if text.matches('.').count() > 1 {
+            error.help("a number has one decimal point");
+        } else {
+            error.help(
+                "write digits only, such as 1.5E-3, or 90D for degrees; UNITS names the units",
+            );
+        }
+        Refused
     }
 
     fn expected(&mut self, name: &str, what: &str) -> Refused {
@@ -141,7 +167,17 @@ impl Parser<'_, '_> {
             None | Some(TokenKind::Comma | TokenKind::Backslash) => Ok(()),
             // The missing comma is reported where the argument is read.
             Some(TokenKind::Word) if self.argument_at(self.at) => Ok(()),
-            Some(_) => {
+            Some(kind) => {
+                let (before, here) = (self.span(self.at - 1), self.span(self.at));
+                let after_number = self.kind(self.at - 1) == Some(TokenKind::Number);
+                if after_number && before.end == here.start {
+                    // The lexer ends `1.5.2` at its second point and `1D-3` at its sign.
+                    let signed = matches!(kind, TokenKind::Plus | TokenKind::Minus);
+                    let last = self.span(self.at + usize::from(signed));
+                    if kind == TokenKind::Number || signed {
+                        return Err(self.not_a_number(before.to(last)));
+                    }
+                }
                 let found = self.source.excerpt(self.span(self.at));
                 let message = format!("the value of {name} ends before `{found}`");
                 Err(self.refuse(self.at, message))
@@ -298,7 +334,7 @@ impl Parser<'_, '_> {
                     .diagnostics
                     .error(problem.code, problem.span, problem.message);
                 error.help = problem.help;
-                error.meant(problem.meant);
+                error.replacement = problem.replacement;
                 Err(Refused)
             }
         }

@@ -130,7 +130,7 @@ pub(crate) fn read_command(
             return None;
         }
         Action::Unsupported => {
-            let message = format!("stiction does not carry out {name} yet");
+            let message = format!("stiction does not carry out {name}");
             diagnostics.error(Code::UnsupportedStatement, raw.head, message);
             return None;
         }

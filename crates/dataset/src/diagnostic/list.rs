@@ -1,5 +1,8 @@
 //! The messages about one source while it is read.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
 use super::{Code, Diagnostic, Severity};
 use crate::source::{Source, Span};
 
@@ -88,9 +91,42 @@ impl<'a> Diagnostics<'a> {
         self.list.len() >= MOST
     }
 
+    /// Tells what is refused in many places once, at the first of them.
+    fn gather_refusals(&mut self) {
+        let mut firsts: HashMap<String, usize> = HashMap::new();
+        let mut others: Vec<(usize, Vec<String>)> = Vec::new();
+        let mut kept: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
+        for diagnostic in self.list.drain(..) {
+            let name = match diagnostic.code {
+                Code::UnsupportedStatement => self.source.excerpt(diagnostic.span).to_string(),
+                Code::UnsupportedArgument => {
+                    let (line, _) = self.source.line_column(diagnostic.span.start);
+                    format!("line {line}")
+                }
+                _ => {
+                    kept.push(diagnostic);
+                    continue;
+                }
+            };
+            match firsts.entry(diagnostic.message.clone()) {
+                Entry::Occupied(first) => others[*first.get()].1.push(name),
+                Entry::Vacant(first) => {
+                    first.insert(others.len());
+                    others.push((kept.len(), Vec::new()));
+                    kept.push(diagnostic);
+                }
+            }
+        }
+        for (place, names) in others {
+            kept[place].holds_for(&names);
+        }
+        self.list = kept;
+    }
+
     /// The messages in the order of their places. The last one tells how many are not shown.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
         self.list.sort_by_key(|diagnostic| diagnostic.span.start);
+        self.gather_refusals();
         if let Some(mut last) = self.overflow {
             last.code = Code::TooMany;
             last.severity = match self.dropped_errors {

@@ -97,6 +97,24 @@ impl Diagnostic {
         self
     }
 
+    /// Adds that the same holds for other elements or places, by their names, of which so many as
+    /// are read in a line are listed.
+    ///
+    /// ```
+    /// use dataset::{Code, Diagnostic, Severity, Span};
+    /// let (severity, code) = (Severity::Error, Code::UnsupportedStatement);
+    /// let mut error = Diagnostic::new(severity, code, "m.adm", Span::default(), "no TIRE");
+    /// error.holds_for(&["TIRE/2".to_string(), "TIRE/3".to_string()]);
+    /// assert_eq!(error.notes, ["the same holds for 2 more: TIRE/2, TIRE/3"]);
+    /// ```
+    pub fn holds_for(&mut self, others: &[String]) -> &mut Self {
+        if others.is_empty() {
+            return self;
+        }
+        let count = others.len();
+        self.note(format!("the same holds for {count} more: {}", few(others)))
+    }
+
     /// Asks whether a name is meant, where one is near, in place of the text that is marked.
     pub(crate) fn meant(&mut self, near: Option<&str>) -> &mut Self {
         if let Some(near) = near {
@@ -111,5 +129,14 @@ impl Diagnostic {
         let text = text.into();
         self.replacement = Some(Replacement { span, text });
         self
+    }
+}
+
+/// Names in a row, cut where there are many.
+pub(crate) fn few(names: &[String]) -> String {
+    const MOST: usize = 12;
+    match names.get(..MOST) {
+        Some(first) if names.len() > MOST => first.join(", ") + ", ...",
+        _ => names.join(", "),
     }
 }

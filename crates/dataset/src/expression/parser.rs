@@ -9,10 +9,10 @@
 //! ```
 
 use super::{ArgumentKind, BinaryOperator, DEEPEST, Expr, Expression, Function, foreign};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Replacement};
 use crate::names;
 use crate::source::{Source, Span};
-use crate::syntax::{Item, TokenKind, join, number_value};
+use crate::syntax::{Item, TokenKind, join, number_value, with_exponent};
 
 /// What is wrong with an expression.
 pub(crate) struct Problem {
@@ -20,9 +20,26 @@ pub(crate) struct Problem {
     pub(crate) span: Span,
     pub(crate) message: String,
     pub(crate) help: Option<String>,
-    /// The name that may have been meant.
-    pub(crate) meant: Option<&'static str>,
+    pub(crate) replacement: Option<Replacement>,
 }
+
+impl Problem {
+    /// Says how to put it right, and what a program may put at `span` for it.
+    fn fix(&mut self, help: String, span: Span, text: impl Into<String>) {
+        let text = text.into();
+        self.help = Some(help);
+        self.replacement = Some(Replacement { span, text });
+    }
+}
+
+/// How a choice is written.
+const COMPARISON: &str = "a comparison is written IF(a - b: x, y, z): x where a is less than b, \
+                          y where they are equal, z where a is greater";
+/// How elements are named.
+const NUMBERS: &str = "a dataset does not know the names of Adams View; write the number of the \
+                       element";
+/// What stands for a value without arguments.
+const CONSTANTS: [&str; 5] = ["TIME", "MODE", "PI", "DTOR", "RTOD"];
 
 /// The most brackets, calls and signs inside one another.
 const DEEPEST_NESTING: usize = 200;
@@ -104,13 +121,7 @@ impl Parser<'_> {
             return false;
         }
         let next = self.items.get(self.at + 2).map(|item| item.kind());
-        let complete = self.used.last().is_some_and(|item| {
-            matches!(
-                item.kind(),
-                TokenKind::Number | TokenKind::Word | TokenKind::RightParenthesis
-            )
-        });
-        next == Some(TokenKind::Equals) || complete
+        next == Some(TokenKind::Equals) || self.after_operand()
     }
 
     fn take(&mut self) {
@@ -134,7 +145,7 @@ impl Parser<'_> {
             span,
             message,
             help: None,
-            meant: None,
+            replacement: None,
         }
     }
 
@@ -143,14 +154,92 @@ impl Parser<'_> {
         let message = format!("expected {expected}, found `{found}`");
         let mut problem = self.problem(Code::Expression, item.span(), message);
         let after_break = self.at > 0 && self.items[self.at - 1].continues;
+        let before = self.used.last().copied().filter(|_| self.after_operand());
+        let touches = before.is_some_and(|before| before.span().end == item.span().start);
+        let number = |item: Item| item.kind() == TokenKind::Number;
         if found == "^" {
-            problem.help = Some("a power is written `**`".to_string());
+            problem.fix("a power is written `**`".to_string(), item.span(), "**");
+        } else if matches!(found.as_ref(), "<" | ">" | "=") {
+            problem.help = Some(COMPARISON.to_string());
+        } else if found == "." {
+            // .GT. and its like stand behind a value, names in place of one.
+            let help = if before.is_some() {
+                COMPARISON
+            } else {
+                NUMBERS
+            };
+            problem.help = Some(help.to_string());
+        } else if let Some(before) =
+            before.filter(|before| touches && number(*before) && number(item))
+        {
+            problem = self.not_a_number(before.span().to(item.span()));
+        } else if before.is_some() && !after_break && self.begins_operand(item) {
+            self.missing_operator(item, &mut problem);
         } else if after_break {
             problem.help = Some(
                 "the comma that starts a continued line is not part of the expression; \
                  end the line before with a comma to separate arguments"
                     .to_string(),
             );
+        }
+        problem
+    }
+
+    /// Whether the expression so far may end here.
+    fn after_operand(&self) -> bool {
+        self.used.last().is_some_and(|item| {
+            matches!(
+                item.kind(),
+                TokenKind::Number | TokenKind::Word | TokenKind::RightParenthesis
+            )
+        })
+    }
+
+    fn begins_operand(&self, item: Item) -> bool {
+        matches!(
+            item.kind(),
+            TokenKind::Number | TokenKind::Word | TokenKind::LeftParenthesis
+        )
+    }
+
+    /// Says what is missing between two operands: the comma before an argument of the statement,
+    /// else a sign.
+    fn missing_operator(&self, item: Item, problem: &mut Problem) {
+        let start = Span::new(item.span().start, item.span().start);
+        let is_word = item.kind() == TokenKind::Word;
+        if self.brackets == 0 && is_word && (self.is_argument)(self.slice(item)) {
+            let help = "arguments are separated by commas".to_string();
+            problem.fix(help, start, ", ");
+        } else {
+            problem.fix("a product is written with `*`".to_string(), start, "*");
+        }
+    }
+
+    /// Digits with something else among or behind them.
+    fn not_a_number(&self, span: Span) -> Problem {
+        let message = format!("`{}` is not a number", self.source.excerpt(span));
+        let mut problem = self.problem(Code::InvalidValue, span, message);
+        let text = self.source.slice(span);
+        let digits = text.len()
+            - text
+                .trim_start_matches(|c: char| c.is_ascii_digit() || c == '.')
+                .len();
+        let (number, name) = text.split_at(digits);
+        if let Some(number) = with_exponent(text) {
+            let help = format!("D means degrees; with an exponent write {number}");
+            problem.fix(help, span, number);
+        } else if number.matches('.').count() > 1 {
+            problem.help = Some("a number has one decimal point".to_string());
+        } else if Function::from_name(name).is_some() || is_constant(name) {
+            let product = format!("{number}*{name}");
+            problem.fix(
+                format!("a product is written with `*`: {product}"),
+                span,
+                product,
+            );
+        } else {
+            problem.help =
+                Some("write digits only, such as 1.5E-3, or 90D for degrees".to_string());
         }
         problem
     }
@@ -271,8 +360,7 @@ impl Parser<'_> {
             TokenKind::Number => {
                 let text = self.slice(item);
                 let Some(value) = number_value(text) else {
-                    let message = format!("`{}` is not a number", self.source.excerpt(item.span()));
-                    return Err(self.problem(Code::InvalidValue, item.span(), message));
+                    return Err(self.not_a_number(item.span()));
                 };
                 if !value.is_finite() {
                     let text = self.source.excerpt(item.span());
@@ -347,16 +435,38 @@ impl Parser<'_> {
             let message = format!("{shown} is not simulated: {reason}");
             return self.problem(Code::UnsupportedFunction, item.span(), message);
         }
+        let next = self.items.get(self.at);
+        let touches = next
+            .is_some_and(|next| next.span().start == item.span().end && self.slice(*next) == ".");
+        if touches {
+            let message = format!("{shown} is no number of an element");
+            let mut problem = self.problem(Code::Expression, item.span(), message);
+            problem.help = Some(NUMBERS.to_string());
+            return problem;
+        }
+        if is_constant(name) {
+            let message = format!("{shown} takes no arguments");
+            let mut problem = self.problem(Code::Expression, item.span(), message);
+            problem.help = Some(format!("write {shown} alone, or {shown}*( for a product"));
+            return problem;
+        }
         let message = format!("no function or constant is called {shown}");
         let mut problem = self.problem(Code::UnknownFunction, item.span(), message);
+        if let Some(function) = Function::from_name(name) {
+            let function = function.name();
+            problem.help = Some(format!("{function} takes arguments in brackets"));
+            return problem;
+        }
+        let called = next.is_some_and(|next| next.kind() == TokenKind::LeftParenthesis);
+        let constants = || names::nearest(name, CONSTANTS.into_iter());
         let functions = Function::ALL.iter().map(|function| function.name());
-        let constants = ["TIME", "MODE", "PI", "DTOR", "RTOD"].into_iter();
-        match Function::from_name(name) {
-            Some(function) => {
-                let function = function.name();
-                problem.help = Some(format!("{function} takes arguments in brackets"));
-            }
-            None => problem.meant = names::nearest(name, functions.chain(constants)),
+        let functions = || names::nearest(name, functions);
+        let near = match called {
+            true => functions().or_else(constants),
+            false => constants().or_else(functions),
+        };
+        if let Some(near) = near {
+            problem.fix(format!("is {near} meant?"), item.span(), near);
         }
         problem
     }
@@ -387,7 +497,10 @@ impl Parser<'_> {
                 Some(item) if item.kind() == separator => self.take(),
                 Some(item) if separator == TokenKind::Colon => {
                     let mut problem = self.unexpected(item, "`:` after the condition of IF");
-                    problem.help = Some("write IF(condition: below 0, at 0, above 0)".to_string());
+                    if problem.help.is_none() {
+                        let help = "write IF(condition: below 0, at 0, above 0)";
+                        problem.help = Some(help.to_string());
+                    }
                     return Err(problem);
                 }
                 _ => break,
@@ -498,4 +611,11 @@ impl Parser<'_> {
         );
         Err(self.problem(Code::InvalidValue, span, message))
     }
+}
+
+/// Whether a name stands for a value without arguments.
+fn is_constant(name: &str) -> bool {
+    CONSTANTS
+        .iter()
+        .any(|constant| name.eq_ignore_ascii_case(constant))
 }

@@ -1,11 +1,8 @@
 //! Markers that nothing uses.
 
 use crate::checks::named_markers;
-use crate::diagnostic::{Code, Diagnostics};
+use crate::diagnostic::{Code, Diagnostics, few};
 use crate::statements::{Builder, Target};
-
-/// So many are named.
-const MOST_NAMES: usize = 12;
 
 /// Reports, in one message, the markers that no argument and no function names.
 pub(super) fn check(builder: &Builder, diagnostics: &mut Diagnostics) {
@@ -31,14 +28,11 @@ pub(super) fn check(builder: &Builder, diagnostics: &mut Diagnostics) {
     let Some(first) = unused.first() else {
         return;
     };
-    let names = unused.iter().take(MOST_NAMES);
-    let mut names: Vec<String> = names.map(|header| header.id.to_string()).collect();
-    if unused.len() > MOST_NAMES {
-        names.push("...".to_string());
-    }
+    let names = unused.iter().map(|header| header.id.to_string());
+    let names: Vec<String> = names.collect();
     let message = match unused.len() {
         1 => format!("nothing uses MARKER/{}", first.id),
-        count => format!("nothing uses {count} markers: {}", names.join(", ")),
+        count => format!("nothing uses {count} markers: {}", few(&names)),
     };
     diagnostics
         .note(Code::UnusedMarker, first.span, message)

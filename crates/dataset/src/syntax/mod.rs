@@ -4,8 +4,8 @@ mod items;
 mod token;
 
 pub(crate) use items::{Item, items, join};
-pub(crate) use token::number_value;
 pub use token::{Language, Token, TokenKind};
+pub(crate) use token::{number_value, with_exponent};
 
 use crate::source::{Source, Span};
 use std::ops::Range;

@@ -245,6 +245,15 @@ const fn is_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_' || byte >= 128
 }
 
+/// A number with an exponent after `D`, as FORTRAN writes it, with `E` instead.
+pub(crate) fn with_exponent(text: &str) -> Option<String> {
+    let (mantissa, exponent) = text.split_once(['d', 'D'])?;
+    let digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+    let whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let right = whole && mantissa.parse::<f64>().is_ok();
+    right.then(|| format!("{mantissa}E{exponent}"))
+}
+
 /// The value of a number token, with `D` at its end in radians; `None` where it is malformed.
 ///
 /// The value may be infinite.

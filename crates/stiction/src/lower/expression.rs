@@ -36,6 +36,8 @@ pub(super) struct Compiler {
     pub(super) owner: String,
     /// Place of the expression.
     span: Span,
+    /// The variable whose function is being added.
+    within: Option<u32>,
     /// Values of the variables that are in the program already; `None` for a refused one.
     variables: HashMap<u32, Option<Register>>,
 }
@@ -47,6 +49,7 @@ impl Compiler {
             reads,
             owner: String::new(),
             span: Span::default(),
+            within: None,
             variables: HashMap::new(),
         }
     }
@@ -121,7 +124,9 @@ impl Compiler {
                 );
             } else {
                 self.span = function.span;
+                self.within = Some(top);
                 let value = self.expr(lowering, &function.root).ok();
+                self.within = None;
                 self.variables.insert(top, value);
                 stack.pop();
             }
@@ -397,14 +402,28 @@ impl Compiler {
         Refused
     }
 
-    /// Reports a function that is not simulated.
+    /// Reports a function that is not simulated: once, where it stands, with all elements whose
+    /// functions hold it.
     fn refuse_function(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
         let Expr::Call { function, span, .. } = call else {
             return Refused;
         };
         let (reason, help) = refusal(*function);
-        let message = format!("{}: {} {reason}", self.owner, function.name());
-        lowering.error(Code::UnsupportedFunction, *span, message, Some(help));
+        let owner = match self.within {
+            Some(id) => format!("VARIABLE/{id}"),
+            None => self.owner.clone(),
+        };
+        let message = format!("{owner}: {} {reason}", function.name());
+        let mut refused = lowering.refused.iter_mut();
+        let Some((_, _, others)) = refused.find(|(other, ..)| other == function) else {
+            let place = lowering.diagnostics.len();
+            lowering.refused.push((*function, place, Vec::new()));
+            lowering.error(Code::UnsupportedFunction, *span, message, Some(help));
+            return Refused;
+        };
+        if lowering.told.insert((span.start, span.end, message)) && others.last() != Some(&owner) {
+            others.push(owner);
+        }
         Refused
     }
 

@@ -30,7 +30,7 @@ mod unknowns;
 
 use std::collections::{BTreeSet, HashSet};
 
-use ::dataset::{Code, Dataset, Diagnostic, Header, Severity, Span, Switchable};
+use ::dataset::{Code, Dataset, Diagnostic, Function, Header, Severity, Span, Switchable};
 use mechanics::Owner;
 use mechanics::model::{Element, Label, Model};
 use nalgebra::Vector3;
@@ -114,6 +114,7 @@ pub(crate) fn lower(
         linear_systems: linear_systems::LinearSystems::new(dataset),
         diagnostics: Vec::new(),
         told: HashSet::new(),
+        refused: Vec::new(),
     };
     let gravity = Vector3::from(dataset.gravity.unwrap_or_default());
     let mut model = Model {
@@ -135,10 +136,14 @@ pub(crate) fn lower(
     model.inactive = lowering.inactive();
     let Lowering {
         motions,
-        diagnostics,
+        mut diagnostics,
         reads_mode,
+        refused,
         ..
     } = lowering;
+    for (_, place, others) in refused {
+        diagnostics[place].holds_for(&others);
+    }
     model.measures = measures.list().to_vec();
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         return Err(diagnostics);
@@ -175,6 +180,8 @@ struct Lowering<'a> {
     diagnostics: Vec<Diagnostic>,
     /// Places and texts of the diagnostics.
     told: HashSet<(usize, usize, String)>,
+    /// Functions that are refused, with the place of the message and the other elements with them.
+    refused: Vec<(Function, usize, Vec<String>)>,
 }
 
 impl Lowering<'_> {

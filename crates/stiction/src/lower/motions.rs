@@ -114,8 +114,8 @@ impl Lowering<'_> {
                 Code::UnsupportedArgument,
                 motion.header.span,
                 format!(
-                    "{name}: velocities and accelerations of body-fixed angles are not simulated \
-                     yet"
+                    "{name}: velocities and accelerations of body-fixed angles are\
+                     not simulated"
                 ),
                 Some(
                     "B3 is simulated where a joint between the same parts keeps the z axes of I \
