@@ -88,6 +88,7 @@
 
 mod assembly;
 mod constraint;
+pub mod curve;
 mod dynamics;
 mod equation;
 mod equilibrium;
