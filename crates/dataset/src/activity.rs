@@ -160,6 +160,7 @@ impl Dataset {
             Switchable::Constraint => sorted(&self.constraints),
             Switchable::Coupler => sorted(&self.couplers),
             Switchable::Gear => sorted(&self.gears),
+            Switchable::PointCurve => sorted(&self.point_curves),
             Switchable::SingleForce => sorted(&self.single_forces),
             Switchable::SpringDamper => sorted(&self.spring_dampers),
             Switchable::VectorForce => sorted(&self.vector_forces),

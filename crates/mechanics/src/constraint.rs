@@ -129,6 +129,9 @@ pub(crate) fn equations_of(kind: JointKind) -> Vec<Equation> {
             pitch,
             start,
         }],
+        JointKind::PointOnCurve { curve } => [0, 1]
+            .map(|component| Equation::OnCurve { curve, component })
+            .to_vec(),
         JointKind::ConstantVelocity { away } => [point, &[Equation::EvenTurns { away }]].concat(),
         JointKind::Spherical | JointKind::AtPoint => point.to_vec(),
         JointKind::Planar => [parallel, &POINT[2..]].concat(),
@@ -158,6 +161,7 @@ pub(crate) fn codirected_axes(kind: JointKind) -> &'static [usize] {
         | JointKind::Universal
         | JointKind::ConstantVelocity { .. }
         | JointKind::RackPinion { .. }
+        | JointKind::PointOnCurve { .. }
         | JointKind::Inline
         | JointKind::Inplane
         | JointKind::Perpendicular => &[],
@@ -248,6 +252,10 @@ pub(crate) fn name(form: Form) -> String {
             equation: Equation::Thread { .. },
             ..
         } => "thread along Zj".to_owned(),
+        Form::Pair {
+            equation: Equation::OnCurve { .. },
+            ..
+        } => "across the curve".to_owned(),
         Form::Pair {
             equation: Equation::EvenTurns { .. },
             ..

@@ -34,7 +34,7 @@ pub enum Drawing {
 /// let point = |x: f64| Vector3::new(x, x * x, 0.0);
 /// let points: Vec<_> = (0..9).map(|k| point(0.25 * f64::from(k))).collect();
 /// let curve = Curve::through(&points, false, Drawing::Spline).unwrap();
-/// assert!((curve.coordinate(0, 0, 1.0) - 2.0).abs() < 1e-12);
+/// assert!((curve.coordinate(0, 0, curve.length()) - 2.0).abs() < 1e-12);
 /// let across = curve.across(&point(1.0));
 /// assert!(across.iter().all(|g| g.value.abs() < 1e-12));
 /// ```

@@ -13,6 +13,7 @@
 //! ```text
 //! about   g = ±atan2(a_I · b_J, c_I · d_J)     about z of J, or about a pin of a cross
 //! thread  g = d · z_J − start − pitch/2π · (angle about z of J, or of a pinion about z of I)
+//! curve   g = g_k(p), p = (d · x_J, d · y_J, d · z_J): see [`crate::curve`]
 //! even    g = x_I · y_J ± y_I · x_J            shafts along z of I and of J turn evenly
 //! ```
 //!
@@ -25,6 +26,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
+use crate::curve::Curve;
 use crate::rotation::skew;
 use crate::state::MarkerFrame;
 
@@ -58,6 +60,14 @@ pub(crate) enum Equation {
     EvenTurns {
         /// Whether z of I and z of J point away from one another.
         away: bool,
+    },
+    /// One of the two functions (0 or 1) that are zero where the origin of I is on a curve of the
+    /// model, which is fixed to J.
+    OnCurve {
+        /// Place of the curve.
+        curve: usize,
+        /// Which function.
+        component: usize,
     },
 }
 
@@ -143,8 +153,8 @@ fn add_block(matrix: &mut LocalMatrix, row: usize, column: usize, block: &Matrix
 }
 
 impl Equation {
-    /// Value, Jacobian and bias.
-    pub(crate) fn evaluate(self, i: &MarkerFrame, j: &MarkerFrame) -> Row {
+    /// Value, Jacobian and bias; `curves` are those of the model.
+    pub(crate) fn evaluate(self, i: &MarkerFrame, j: &MarkerFrame, curves: &[Curve]) -> Row {
         match self {
             Self::Along(k) => along(i, j, k),
             Self::Axes(k, l) => axes(i, j, k, l),
@@ -154,6 +164,7 @@ impl Equation {
                 pitch,
                 start,
             } => thread(i, j, about, pitch, start),
+            Self::OnCurve { curve, component } => on_curve(i, j, &curves[curve], component),
             Self::EvenTurns { away } => {
                 let (x, y) = (axes(i, j, 0, 1), axes(i, j, 1, 0));
                 let sign = if away { 1.0 } else { -1.0 };
@@ -169,7 +180,7 @@ impl Equation {
     /// The first of a body's six motions that it depends on: 3 where it is of rotations alone.
     pub(crate) const fn first_motion(self) -> usize {
         match self {
-            Self::Along(_) | Self::Thread { .. } => 0,
+            Self::Along(_) | Self::Thread { .. } | Self::OnCurve { .. } => 0,
             Self::Axes(..) | Self::About(_) | Self::EvenTurns { .. } => 3,
         }
     }
@@ -178,13 +189,21 @@ impl Equation {
     ///
     /// With the multiplier it is the geometric stiffness `∂(Gᵀλ)/∂x`; its transpose times the
     /// velocities is `∂(G u)/∂x`.
-    pub(crate) fn stiffness(self, i: &MarkerFrame, j: &MarkerFrame) -> LocalMatrix {
+    pub(crate) fn stiffness(
+        self,
+        i: &MarkerFrame,
+        j: &MarkerFrame,
+        curves: &[Curve],
+    ) -> LocalMatrix {
         match self {
             Self::Along(k) => along_stiffness(i, j, k),
             Self::Axes(k, l) => axes_stiffness(i, j, k, l),
             Self::About(axis) => about_stiffness(i, j, axis),
             Self::Thread { about, pitch, .. } => {
                 along_stiffness(i, j, 2) - about_stiffness(i, j, about) * (pitch / TAU)
+            }
+            Self::OnCurve { curve, component } => {
+                on_curve_stiffness(i, j, &curves[curve], component)
             }
             Self::EvenTurns { away } => {
                 let sign = if away { 1.0 } else { -1.0 };
@@ -305,9 +324,53 @@ fn thread(i: &MarkerFrame, j: &MarkerFrame, axis: Axis, pitch: f64, start: f64) 
     }
 }
 
+/// The origin of I along the axes of J: three equations of their own.
+fn position(i: &MarkerFrame, j: &MarkerFrame) -> ([Row; 3], Vector3<f64>) {
+    let rows = [0, 1, 2].map(|axis| along(i, j, axis));
+    let p = Vector3::from(rows.map(|row| row.value));
+    (rows, p)
+}
+
+fn on_curve(i: &MarkerFrame, j: &MarkerFrame, curve: &Curve, component: usize) -> Row {
+    let (rows, p) = position(i, j);
+    let across = curve.across(&p)[component];
+    let u = local_velocities(i, j);
+    let rates = Vector3::from(rows.map(|row| row.jacobian.dot(&u)));
+    let mut row = Row {
+        value: across.value,
+        jacobian: Local::zeros(),
+        bias: rates.dot(&(across.hessian * rates)),
+    };
+    for (slope, along) in across.gradient.iter().zip(&rows) {
+        row.jacobian += *slope * along.jacobian;
+        row.bias += slope * along.bias;
+    }
+    row
+}
+
+fn on_curve_stiffness(
+    i: &MarkerFrame,
+    j: &MarkerFrame,
+    curve: &Curve,
+    component: usize,
+) -> LocalMatrix {
+    let (rows, p) = position(i, j);
+    let across = curve.across(&p)[component];
+    let mut matrix = LocalMatrix::zeros();
+    for a in 0..3 {
+        matrix += across.gradient[a] * along_stiffness(i, j, a);
+        for b in 0..3 {
+            let bend = across.hessian[(a, b)];
+            matrix += bend * rows[a].jacobian * rows[b].jacobian.transpose();
+        }
+    }
+    matrix
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::curve::Drawing;
     use crate::rotation::Quaternion;
 
     /// Two markers on two moving bodies in general position, displaced by `change` (12 numbers).
@@ -333,7 +396,7 @@ mod tests {
         made
     }
 
-    const ALL: [Equation; 14] = [
+    const ALL: [Equation; 16] = [
         Equation::Along(0),
         Equation::Along(2),
         Equation::Axes(2, 0),
@@ -356,7 +419,25 @@ mod tests {
         },
         Equation::EvenTurns { away: true },
         Equation::EvenTurns { away: false },
+        Equation::OnCurve {
+            curve: 0,
+            component: 0,
+        },
+        Equation::OnCurve {
+            curve: 0,
+            component: 1,
+        },
     ];
+
+    /// A curve that passes where the markers are.
+    fn curves() -> Vec<Curve> {
+        let at = |k: usize| {
+            let a = 0.3 * k as f64 - 2.0;
+            Vector3::new(a, 2.0 * a.sin(), 1.0 + (1.3 * a).cos())
+        };
+        let points: Vec<_> = (0..14).map(at).collect();
+        vec![Curve::through(&points, false, Drawing::Spline).unwrap()]
+    }
 
     /// Central differences of `f` over the twelve motions at step 1e-5: truncation 1e-10 times the
     /// third derivative, rounding 1e-11; the tests allow 1e-8.
@@ -373,22 +454,23 @@ mod tests {
     #[test]
     fn jacobian_and_stiffness_match_differences() {
         let [i, j] = frames(&Local::zeros());
+        let curves = curves();
         for equation in ALL {
             let value = |x: &Local| {
                 let [i, j] = frames(x);
-                Local::repeat(equation.evaluate(&i, &j).value)
+                Local::repeat(equation.evaluate(&i, &j, &curves).value)
             };
             let jacobian = differences(value).row(0).transpose();
             assert!(
-                (jacobian - equation.evaluate(&i, &j).jacobian).norm() < 1e-8,
+                (jacobian - equation.evaluate(&i, &j, &curves).jacobian).norm() < 1e-8,
                 "{equation:?}"
             );
             let gradient = |x: &Local| {
                 let [i, j] = frames(x);
-                equation.evaluate(&i, &j).jacobian
+                equation.evaluate(&i, &j, &curves).jacobian
             };
             let stiffness = differences(gradient);
-            let error = (stiffness - equation.stiffness(&i, &j)).norm();
+            let error = (stiffness - equation.stiffness(&i, &j, &curves)).norm();
             assert!(error < 1e-8, "{equation:?} {error}");
         }
     }
@@ -409,7 +491,7 @@ mod tests {
             let rates = [0.7, -1.9];
             i.omega = j.omega + rates[0] * i.axis(p) + rates[1] * j.axis(q);
             for ((pin, rate), axis) in pins.into_iter().zip(rates).zip([i.axis(p), j.axis(q)]) {
-                let row = Equation::About(Axis::Pin(pin)).evaluate(&i, &j);
+                let row = Equation::About(Axis::Pin(pin)).evaluate(&i, &j, &[]);
                 let found = row.jacobian.dot(&local_velocities(&i, &j));
                 assert!((found - rate).abs() < 1e-14, "{pin:?} {found} {rate}");
                 // A torque about the pin acts on I along it, and the opposite on J.
@@ -423,10 +505,11 @@ mod tests {
     fn bias_is_the_acceleration_at_constant_velocities() {
         let [i, j] = frames(&Local::zeros());
         let u = local_velocities(&i, &j);
+        let curves = curves();
         for equation in ALL {
             // Rate of G u along the motion with u held: ∂(G u)/∂x · u.
-            let bias = (equation.stiffness(&i, &j).transpose() * u).dot(&u);
-            let row = equation.evaluate(&i, &j);
+            let bias = (equation.stiffness(&i, &j, &curves).transpose() * u).dot(&u);
+            let row = equation.evaluate(&i, &j, &curves);
             assert!(
                 (row.bias - bias).abs() < 1e-12 * (1.0 + bias.abs()),
                 "{equation:?}"

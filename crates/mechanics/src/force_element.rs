@@ -1,7 +1,7 @@
 //! Elements that apply a force and a torque between two markers, and how functions ask for them.
 
 use crate::constraint::Owner;
-use crate::model::Model;
+use crate::model::{JointKind, Model};
 
 /// An element that applies a force and a torque between two markers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -92,7 +92,11 @@ impl Model {
         };
         match element {
             ForceElement::Constraint(Owner::Joint(place)) => {
-                fixed(Some(self.joints[place].i), Some(self.joints[place].j))
+                let joint = &self.joints[place];
+                Ends {
+                    floating: matches!(joint.kind, JointKind::PointOnCurve { .. }),
+                    ..fixed(Some(joint.i), Some(joint.j))
+                }
             }
             ForceElement::Constraint(Owner::Motion(place)) => {
                 fixed(Some(self.motions[place].i), Some(self.motions[place].j))

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use numerics::linear::Matrix;
 
 use crate::constraint::Owner;
+use crate::curve::{Curve, Drawing};
 use crate::expression::{Binary, Input, Operation, Program, Unary};
 use crate::force_element::{Acting, ForceComponent, ForceElement, Side};
 use crate::measure::{Measure, Quantity};
@@ -35,7 +36,7 @@ fn vector(seed: usize) -> Vector3<f64> {
     )
 }
 
-const KINDS: [JointKind; 17] = [
+const KINDS: [JointKind; 18] = [
     JointKind::Revolute,
     JointKind::Translational,
     JointKind::Cylindrical,
@@ -59,6 +60,7 @@ const KINDS: [JointKind; 17] = [
         pitch: -2.0,
         start: 0.3,
     },
+    JointKind::PointOnCurve { curve: 0 },
 ];
 
 /// A function of two inputs and time: `sin(a) b² + t`.
@@ -108,6 +110,13 @@ fn model(law: &Law) -> Model {
             rotates: body != 4,
         });
     }
+    let helix = |k: usize| {
+        let a = 0.4 * k as f64;
+        Vector3::new(1.5 * a.cos(), a.sin(), 0.3 * a - 1.0)
+    };
+    let points: Vec<_> = (0..20).map(helix).collect();
+    let curve = Curve::through(&points, false, Drawing::Spline);
+    model.curves.push(curve.unwrap());
     let marker = |model: &mut Model, body: Option<usize>| {
         let seed = 50 + model.markers.len();
         model.markers.push(Marker {

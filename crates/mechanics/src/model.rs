@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::curve::Curve;
 pub use crate::equation::Pin;
 use crate::expression::Program;
 use crate::measure::Measure;
@@ -116,6 +117,11 @@ pub enum JointKind {
         pitch: f64,
         /// Displacement of I along z of J where x of I is along z of J.
         start: f64,
+    },
+    /// I's origin on a curve that is fixed to J; J acts on the point of the curve where I stands.
+    PointOnCurve {
+        /// Place of the curve in [`Model::curves`].
+        curve: usize,
     },
     /// Primitive: origins coincide.
     AtPoint,
@@ -377,6 +383,8 @@ pub struct Model {
     pub markers: Vec<Marker>,
     /// Joints and joint primitives.
     pub joints: Vec<Joint>,
+    /// Curves that points move along.
+    pub curves: Vec<Curve>,
     /// Motions.
     pub motions: Vec<Motion>,
     /// General constraints.

@@ -12,6 +12,7 @@ fn span_of(dataset: &Dataset, element: &Label) -> Option<Span> {
         "JOINT" => &dataset.joints.by_id(id)?.header,
         "JPRIM" => &dataset.primitives.by_id(id)?.header,
         "MARKER" => &dataset.markers.by_id(id)?.header,
+        "PTCV" => &dataset.point_curves.by_id(id)?.header,
         "MOTION" => &dataset.motions.by_id(id)?.header,
         "GCON" => &dataset.constraints.by_id(id)?.header,
         "COUPLER" => &dataset.couplers.by_id(id)?.header,

@@ -1,8 +1,10 @@
 //! What the result files hold: entities with their names, and a row of values at an instant.
 //!
-//! Order: parts and point masses, joints, primitives, motions, general constraints, couplers, gears,
-//! applied forces, variables, differential equations, linear systems, plant inputs and outputs, frictions, requests; last our own entities,
-//! one a friction, where readers that look for those of Adams do not meet them.
+//! Order: parts and point masses, joints, primitives, points on curves, motions, general constraints,
+//! couplers, gears, applied forces, variables, differential equations, linear
+//! systems, plant inputs and outputs,
+//! frictions, requests; last our own entities, one a friction, where readers that look for those of
+//! Adams do not meet them.
 
 use dataset::{Dataset, Header};
 use mechanics::expression::Register;
@@ -60,6 +62,10 @@ impl Channels {
         for (place, element) in dataset.primitives.iter().enumerate() {
             let place = dataset.joints.len() + place;
             push(&element.header, "JPRIM", "Primitive_Joint", joint(place));
+        }
+        for (place, element) in dataset.point_curves.iter().enumerate() {
+            let place = dataset.joints.len() + dataset.primitives.len() + place;
+            push(&element.header, "PTCV", "Point_Curve", joint(place));
         }
         for (element, owner) in dataset.motions.iter().zip(&lowered.motions) {
             let Some(owner) = *owner else { continue };

@@ -43,6 +43,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("MARKER", dataset.markers.len()),
         ("JOINT", dataset.joints.len()),
         ("JPRIM", dataset.primitives.len()),
+        ("PTCV", dataset.point_curves.len()),
         ("GCON", dataset.constraints.len()),
         ("COUPLER", dataset.couplers.len()),
         ("GEAR", dataset.gears.len()),

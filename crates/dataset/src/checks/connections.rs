@@ -60,6 +60,17 @@ pub(super) fn check(dataset: &Dataset, diagnostics: &mut Diagnostics) {
         let name = format_args!("BEAM/{}", beam.header.id);
         two_markers(name, beam.i, beam.j, beam.header.span, diagnostics);
     }
+    for point in &dataset.point_curves {
+        let name = format_args!("PTCV/{}", point.header.id);
+        two_parts(
+            dataset,
+            name,
+            point.i,
+            point.rm,
+            point.header.span,
+            diagnostics,
+        );
+    }
     couplers(dataset, diagnostics);
     gears(dataset, diagnostics);
     motions(dataset, diagnostics);

@@ -216,7 +216,10 @@ fn report(dataset: &Dataset, missing: Vec<Missing>, diagnostics: &mut Diagnostic
 /// Elements that a dataset cannot hold count as present: their functions are refused later.
 fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
     let element = match kind {
-        ArgumentKind::Real | ArgumentKind::Integer | ArgumentKind::Order => return true,
+        ArgumentKind::Real
+        | ArgumentKind::Integer
+        | ArgumentKind::Order
+        | ArgumentKind::Coordinate => return true,
         ArgumentKind::MarkerOrGround if id == 0 => return true,
         ArgumentKind::Marker | ArgumentKind::MarkerOrGround => {
             return dataset.markers.position(id).is_some();
@@ -235,6 +238,8 @@ fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
         ElementKind::Bushing => dataset.bushings.position(id),
         ElementKind::Field => dataset.fields.position(id),
         ElementKind::Beam => dataset.beams.position(id),
+        ElementKind::PointCurve => dataset.point_curves.position(id),
+        ElementKind::Curve => dataset.curves.position(id),
         ElementKind::Spline => dataset.splines.position(id),
         ElementKind::Variable => dataset.variables.position(id),
         ElementKind::Differential => dataset.differentials.position(id),
@@ -260,6 +265,8 @@ const fn statement(element: ElementKind) -> &'static str {
         ElementKind::Bushing => "BUSHING",
         ElementKind::Field => "FIELD",
         ElementKind::Beam => "BEAM",
+        ElementKind::PointCurve => "PTCV",
+        ElementKind::Curve => "CURVE",
         ElementKind::Spline => "SPLINE",
         ElementKind::Variable => "VARIABLE",
         ElementKind::Differential => "DIFF",

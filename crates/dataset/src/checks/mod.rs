@@ -2,6 +2,7 @@
 
 pub(crate) mod angles;
 mod connections;
+mod curves;
 mod expressions;
 mod friction;
 pub(crate) mod inertia;
@@ -28,6 +29,7 @@ pub(crate) fn model(builder: &Builder, diagnostics: &mut Diagnostics) {
 /// Reports what is wrong with connections and expressions.
 pub(crate) fn elements(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     connections::check(dataset, diagnostics);
+    curves::check(dataset, diagnostics);
     expressions::check_all(dataset, diagnostics);
     linear_systems::check(dataset, diagnostics);
 }

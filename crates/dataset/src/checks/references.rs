@@ -80,6 +80,7 @@ pub(crate) fn exists(dataset: &Dataset, target: Target, id: u32) -> bool {
         Target::Variable => dataset.variables.position(id).is_some(),
         Target::Array => dataset.arrays.position(id).is_some(),
         Target::Matrix => dataset.matrices.position(id).is_some(),
+        Target::Curve => dataset.curves.position(id).is_some(),
     }
 }
 
@@ -92,6 +93,7 @@ fn sorted_ids(dataset: &Dataset, target: Target) -> Vec<u32> {
         Target::Variable => sorted(&dataset.variables),
         Target::Array => sorted(&dataset.arrays),
         Target::Matrix => sorted(&dataset.matrices),
+        Target::Curve => sorted(&dataset.curves),
     }
 }
 

@@ -25,6 +25,10 @@ pub enum ElementKind {
     Field,
     /// BEAM.
     Beam,
+    /// PTCV.
+    PointCurve,
+    /// CURVE.
+    Curve,
     /// SPLINE.
     Spline,
     /// VARIABLE.
@@ -52,6 +56,8 @@ pub enum ArgumentKind {
     Integer,
     /// The order of a derivative: 0, 1 or 2.
     Order,
+    /// A coordinate: 1, 2 or 3 for x, y or z.
+    Coordinate,
     /// The id of a marker.
     Marker,
     /// The id of a marker, or 0 for the ground.
@@ -60,7 +66,7 @@ pub enum ArgumentKind {
     Element(ElementKind),
 }
 
-use ArgumentKind::{Element, Integer, Marker, MarkerOrGround, Order, Real};
+use ArgumentKind::{Coordinate, Element, Integer, Marker, MarkerOrGround, Order, Real};
 use ElementKind as E;
 
 macro_rules! functions {
@@ -256,7 +262,7 @@ functions! {
         "id, side, component, rm" "component 1 to 8 (FM FX FY FZ TM TX TY TZ) of an SFORCE on I (side 0) or J (1), along rm";
     Spdp "SPDP" 3 [Element(E::SpringDamper), Integer, Integer, MarkerOrGround] 4
         "id, side, component, rm" "component 1 to 8 (FM FX FY FZ TM TX TY TZ) of a SPRINGDAMPER on I (side 0) or J (1), along rm";
-    Ptcv "PTCV" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4
+    Ptcv "PTCV" 3 [Element(E::PointCurve), Integer, Integer, MarkerOrGround] 4
         "id, side, component, rm" "component 1 to 8 (FM FX FY FZ TM TX TY TZ) of a PTCV on I (side 0) or J (1), along rm";
     Cvcv "CVCV" 3 [Element(E::Other), Integer, Integer, MarkerOrGround] 4
         "id, side, component, rm" "component 1 to 8 (FM FX FY FZ TM TX TY TZ) of a CVCV on I (side 0) or J (1), along rm";
@@ -371,7 +377,7 @@ functions! {
         "x, z, id, order" "SPLINE by Akima's method in x and linear in z, or a derivative by x";
     Interp "INTERP" 3 [Real, Integer, Element(E::Spline), Order] 4
         "x, method, id, order" "SPLINE of a time history";
-    Curve "CURVE" 4 [Real, Order, Integer, Element(E::Other)] 4
+    Curve "CURVE" 4 [Real, Order, Coordinate, Element(E::Curve)] 4
         "x, order, component, id" "coordinate of a CURVE at its parameter x (-1 to 1), or a derivative";
     Delay "DELAY" 3 [Real] 3
         "x, tau, history" "value of x a time tau before";

@@ -594,11 +594,14 @@ impl Parser<'_> {
     ) -> Result<(), Problem> {
         let expected = match (function.argument_kind(position), argument.as_id()) {
             (ArgumentKind::Real, _) => return Ok(()),
-            (ArgumentKind::Integer, Some(_)) | (ArgumentKind::Order, Some(..=2)) => return Ok(()),
+            (ArgumentKind::Integer, Some(_))
+            | (ArgumentKind::Order, Some(..=2))
+            | (ArgumentKind::Coordinate, Some(1..=3)) => return Ok(()),
             (ArgumentKind::MarkerOrGround, Some(_)) => return Ok(()),
             (ArgumentKind::Marker | ArgumentKind::Element(_), Some(1..)) => return Ok(()),
             (ArgumentKind::Integer, None) => "a whole number",
             (ArgumentKind::Order, _) => "the order of a derivative, 0, 1 or 2",
+            (ArgumentKind::Coordinate, _) => "a coordinate, 1, 2 or 3 for x, y or z",
             (ArgumentKind::Marker, _) => "the number of a marker",
             (ArgumentKind::MarkerOrGround, None) => "the number of a marker, or 0 for the ground",
             (ArgumentKind::Element(_), _) => "the number of an element",

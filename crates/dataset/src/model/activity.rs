@@ -18,6 +18,8 @@ pub enum Switchable {
     Coupler,
     /// GEAR.
     Gear,
+    /// PTCV.
+    PointCurve,
     /// SFORCE.
     SingleForce,
     /// SPRINGDAMPER.
@@ -44,13 +46,14 @@ pub enum Switchable {
 
 impl Switchable {
     /// Every type.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Joint,
         Self::Primitive,
         Self::Motion,
         Self::Constraint,
         Self::Coupler,
         Self::Gear,
+        Self::PointCurve,
         Self::SingleForce,
         Self::SpringDamper,
         Self::VectorForce,
@@ -74,6 +77,7 @@ impl Switchable {
             Self::Constraint => "GCON",
             Self::Coupler => "COUPLER",
             Self::Gear => "GEAR",
+            Self::PointCurve => "PTCV",
             Self::SingleForce => "SFORCE",
             Self::SpringDamper => "SPRINGDAMPER",
             Self::VectorForce => "VFORCE",

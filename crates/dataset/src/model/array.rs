@@ -55,6 +55,20 @@ impl Matrix {
     /// The most rows and columns of a matrix that a system can have: sparse ones name them without
     /// giving them.
     pub const MOST: usize = 10_000;
+
+    /// Its numbers row after row; `None` where not every one is given.
+    #[must_use]
+    pub fn by_rows(&self) -> Option<Vec<f64>> {
+        let count = self.rows.checked_mul(self.columns)?;
+        if self.entries.len() != count {
+            return None;
+        }
+        let mut values = vec![None; count];
+        for &(row, column, value) in &self.entries {
+            *values.get_mut(row * self.columns + column)? = Some(value);
+        }
+        values.into_iter().collect()
+    }
 }
 
 /// STRING: a text that subroutines read.

@@ -1,11 +1,11 @@
 //! The whole model.
 
 use super::{
-    Array, Beam, Bushing, Contact, Coupler, DifferentialEquation, Elements, Equilibrium, Field,
-    Friction, Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint,
+    Array, Beam, Bushing, Contact, Coupler, Curve, DifferentialEquation, Elements, Equilibrium,
+    Field, Friction, Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint,
     JointPrimitive, Kinematics, LinearStateEquations, Marker, Matrix, Motion, OutputOptions, Part,
-    PlantPort, PointMass, Preferences, Request, ResultsOptions, Sensor, SingleForce, Spline,
-    SpringDamper, Switchable, Text, Texts, TransferFunction, Units, Variable, VectorForce,
+    PlantPort, PointCurve, PointMass, Preferences, Request, ResultsOptions, Sensor, SingleForce,
+    Spline, SpringDamper, Switchable, Text, Texts, TransferFunction, Units, Variable, VectorForce,
 };
 use std::collections::BTreeSet;
 
@@ -32,6 +32,8 @@ pub struct Dataset {
     pub joints: Elements<Joint>,
     /// JPRIM.
     pub primitives: Elements<JointPrimitive>,
+    /// PTCV.
+    pub point_curves: Elements<PointCurve>,
     /// MOTION.
     pub motions: Elements<Motion>,
     /// GCON.
@@ -58,6 +60,8 @@ pub struct Dataset {
     pub beams: Elements<Beam>,
     /// CONTACT, none of which is simulated.
     pub contacts: Elements<Contact>,
+    /// CURVE.
+    pub curves: Elements<Curve>,
     /// SPLINE.
     pub splines: Elements<Spline>,
     /// VARIABLE.

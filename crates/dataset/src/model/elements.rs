@@ -138,5 +138,7 @@ elements!(
     super::Sensor,
     super::Graphics,
     super::Friction,
+    super::Curve,
+    super::PointCurve,
     super::Spline,
 );

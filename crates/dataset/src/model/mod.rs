@@ -8,6 +8,7 @@ mod array;
 mod commands;
 mod contact;
 mod coupler;
+mod curve;
 mod dataset;
 mod differential;
 mod elastic;
@@ -35,6 +36,7 @@ pub use commands::{
 };
 pub use contact::{Contact, ContactFriction, ContactLaw};
 pub use coupler::{CoupledFreedom, Coupler, Gear};
+pub use curve::{Curve, PointCurve};
 pub use dataset::Dataset;
 pub use differential::DifferentialEquation;
 pub use elastic::{Beam, BeamDamping, Bushing, Field};

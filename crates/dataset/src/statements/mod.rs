@@ -3,6 +3,7 @@
 mod array;
 mod contact;
 mod coupler;
+mod curve;
 mod differential;
 mod elastic;
 mod force;
@@ -57,6 +58,7 @@ pub(crate) enum Target {
     Variable,
     Array,
     Matrix,
+    Curve,
 }
 
 impl Target {
@@ -69,6 +71,7 @@ impl Target {
             Self::Variable => "VARIABLE",
             Self::Array => "ARRAY",
             Self::Matrix => "MATRIX",
+            Self::Curve => "CURVE",
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::{
-    array, contact, coupler, differential, elastic, force, friction, joint, linear_system, motion,
-    part, request, sensor, settings, spline, units, variable, vector_force,
+    array, contact, coupler, curve, differential, elastic, force, friction, joint, linear_system,
+    motion, part, request, sensor, settings, spline, units, variable, vector_force,
 };
 use crate::keywords::Keyword;
 use crate::names::Name;
@@ -135,6 +135,8 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     read("FIELD", "FI", elastic::FIELD_KEYWORDS, elastic::field),
     read("BEAM", "BE", elastic::BEAM_KEYWORDS, elastic::beam),
     read("CONTACT", "CON", contact::KEYWORDS, contact::contact),
+    read("PTCV", "PT", curve::POINT_KEYWORDS, curve::point_curve),
+    read("CURVE", "CU", curve::KEYWORDS, curve::curve),
     read("SPLINE", "SPL", spline::KEYWORDS, spline::spline),
     read("VARIABLE", "VAR", variable::KEYWORDS, variable::variable),
     read(
@@ -218,7 +220,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         settings::PREFERENCES_KEYWORDS,
         settings::preferences_statement,
     ),
-    ignored("CURVE", DATA),
     ignored("SURFACE", DATA),
     ignored("MATERIAL", "rigid parts give their own mass and inertia"),
     ignored("SECTION", "only flexible parts have a cross-section"),
@@ -253,7 +254,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     unsupported("GSE", "GS", SUBROUTINE_STATES),
     unsupported("MFORCE", "MF", FLEXIBLE),
     unsupported("NFORCE", "NF", FORCES),
-    unsupported("PTCV", "PT", SURFACES),
     unsupported("TIRE", "TIRE", TIRES),
     unsupported("UCON", "UC", CONSTRAINTS),
 ];

@@ -111,7 +111,7 @@ impl System {
         }
         for start in starts {
             let (i, j) = (self.marker(start.i), self.marker(start.j));
-            let row = start.equation.evaluate(&i, &j);
+            let row = start.equation.evaluate(&i, &j, &[]);
             let along = matches!(start.equation, Equation::Along(_));
             let (scale, quantity) = if along {
                 (1.0 / length, LENGTH)
@@ -149,7 +149,7 @@ impl System {
 pub(super) fn scale_of(form: Form, evaluated: &Evaluated, length: f64) -> (f64, &'static str) {
     match form {
         Form::Pair {
-            equation: Equation::Along(_) | Equation::Thread { .. },
+            equation: Equation::Along(_) | Equation::Thread { .. } | Equation::OnCurve { .. },
             ..
         } => (1.0 / length, LENGTH),
         Form::Pair { .. } => (1.0, ANGLE),

@@ -141,7 +141,7 @@ fn evaluate<const N: usize>(
     let (mut velocity, mut creep) = ([0.0; N], [0.0; N]);
     let mut rows = [Local::zeros(); N];
     for k in 0..N {
-        let row = equations[k].evaluate(i, j);
+        let row = equations[k].evaluate(i, j, &[]);
         rows[k] = row.jacobian;
         velocity[k] = arms[k] * row.jacobian.dot(&u);
         if sticks {
@@ -174,7 +174,7 @@ fn evaluate<const N: usize>(
     let Some(slopes) = slopes else {
         return element;
     };
-    let stiffnesses = equations.map(|equation| equation.stiffness(i, j));
+    let stiffnesses = equations.map(|equation| equation.stiffness(i, j, &[]));
     let velocity_by_position: [Local; N] =
         std::array::from_fn(|k| arms[k] * stiffnesses[k].tr_mul(&u));
     let mut along_load = Local::zeros();

@@ -179,7 +179,7 @@ fn load_at(
     moment: [f64; 3],
 ) -> LoadAt {
     let displaced = || {
-        let row = Equation::Along(2).evaluate(i, j);
+        let row = Equation::Along(2).evaluate(i, j, &[]);
         (row.value - memory.initial_displacement, row.jacobian)
     };
     match &friction.load {
@@ -269,7 +269,7 @@ fn surface_velocity(friction: &Friction, i: &MarkerFrame, j: &MarkerFrame) -> [f
     let u = crate::equation::local_velocities(i, j);
     let mut velocity = [0.0; 3];
     for (component, equation) in velocity.iter_mut().zip(equations) {
-        *component = equation.arm(arm) * equation.evaluate(i, j).jacobian.dot(&u);
+        *component = equation.arm(arm) * equation.evaluate(i, j, &[]).jacobian.dot(&u);
     }
     velocity
 }

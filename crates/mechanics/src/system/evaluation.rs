@@ -83,7 +83,7 @@ impl System {
         derivatives: bool,
     ) {
         let (i, j) = (self.marker(i), self.marker(j));
-        let row = equation.evaluate(&i, &j);
+        let row = equation.evaluate(&i, &j, &self.model.curves);
         let constraint = &self.constraints[place];
         let (mut value, mut rate, mut acceleration) = (row.value, 0.0, 0.0);
         if let Owner::Motion(motion) = constraint.owner {
@@ -127,7 +127,7 @@ impl System {
         let sides = [i.body, j.body];
         spread(&sides, &evaluated.local, &mut evaluated.jacobian);
         if derivatives {
-            evaluated.stiffness = equation.stiffness(&i, &j);
+            evaluated.stiffness = equation.stiffness(&i, &j, &self.model.curves);
             let u = local_velocities(&i, &j);
             let change = evaluated.stiffness.tr_mul(&u);
             spread(&sides, &change, &mut evaluated.rate_change);

@@ -157,10 +157,13 @@ impl PiecewiseCubic {
         &self.knots
     }
 
-    /// Value and first four derivatives at `x`; at a knot those of the piece behind it.
+    /// Value and first four derivatives at `x`; at a knot those of the piece behind it, at the last
+    /// knot of the piece before it.
     #[must_use]
     pub fn derivatives(&self, x: f64) -> [f64; 5] {
-        let piece = self.knots.partition_point(|knot| *knot <= x);
+        let behind = self.knots.partition_point(|knot| *knot <= x);
+        let at_end = self.knots.last() == Some(&x);
+        let piece = behind - usize::from(at_end);
         let [a, b, c, d] = self.pieces[piece];
         let s = x - self.knots[piece.saturating_sub(1)];
         [

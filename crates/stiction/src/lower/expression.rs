@@ -231,6 +231,7 @@ impl Compiler {
             Function::Akispl | Function::Cubspl => {
                 return self.interpolation(lowering, function, arguments);
             }
+            Function::Curve => return self.curve_coordinate(lowering, arguments),
             Function::Invpsd => return self.power_density(lowering, arguments, *span),
             _ => {}
         }

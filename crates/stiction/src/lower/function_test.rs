@@ -43,6 +43,11 @@ MARKER/9, PART=1, FLOATING
 JOINT/1, REVOLUTE, I=50, J=5
 MOTION/1, JOINT=1, ROTATIONAL, FUNCTION=TIME
 FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, INACTIVE=STATIC
+MATRIX/1, FULL=RORDER, ROWS=4, COLUMNS=3, VALUES=0,0,0, 1,0,0, 2,1,0, 3,1,1
+CURVE/1, OPEN, MATRIX=1, CURVE_POINTS
+PART/7, MASS=1, CM=70, IP=1, 1, 1
+MARKER/70, PART=7
+PTCV/1, I=70, JFLOAT=9, RM=1, CURVE=1
 PART/6, MASS=1, CM=60, IP=1, 1, 1, QG=9, 9, 0
 MARKER/60, PART=6
 JPRIM/1, INPLANE, I=60, J=1
@@ -194,7 +199,7 @@ fn checks() -> Vec<(Function, Check)> {
         (N::Motion, Test("MOTION(1,0,8,11)", FORCES)),
         (N::Sforce, Test("SFORCE(1,0,2,11)", FORCES)),
         (N::Spdp, Test("SPDP(1,0,2,11)", FORCES)),
-        (N::Ptcv, Refused("PTCV(1,0,2,11)")),
+        (N::Ptcv, Test("PTCV(1,0,2,11)", TUBE)),
         (N::Cvcv, Refused("CVCV(1,0,2,11)")),
         (N::Vforce, Test("VFORCE(1,0,2,11)", FORCES)),
         (N::Vtorq, Test("VTORQ(1,0,6,11)", FORCES)),
@@ -342,7 +347,7 @@ fn checks() -> Vec<(Function, Check)> {
             }),
         ),
         (N::Interp, Refused("INTERP({x},1,1)")),
-        (N::Curve, Refused("CURVE({x},0,1,1)")),
+        (N::Curve, Test("CURVE({x},0,1,1)", COORDINATES)),
         (N::Delay, Refused("DELAY({x},1,0)")),
         (N::User, Refused("USER(1,2)")),
     ]
@@ -350,6 +355,8 @@ fn checks() -> Vec<(Function, Check)> {
 
 const IMPLICIT: &str =
     "tests/stiction/differential.rs: an_implicit_equation_is_solved_for_its_rate";
+const TUBE: &str = "tests/stiction/curves.rs: a_bead_in_a_turning_tube_flies_out";
+const COORDINATES: &str = "tests/stiction/curves.rs: a_function_reads_the_coordinates_of_a_curve";
 const STATES: &str = "tests/stiction/differential.rs: a_force_and_a_state_drive_each_other";
 const ACCELERATIONS: &str = "src/lower/function_test.rs: accelerations_are_rates_of_velocities";
 

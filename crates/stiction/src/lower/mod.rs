@@ -1,14 +1,15 @@
 //! From the typed dataset to the mechanical model.
 //!
 //! Elements keep their order: bodies are the moving parts and then the point masses, joints the
-//! joints and then the primitives, forces as `forces::APPLIED` says, by components.
-//! Markers keep their places; a marker at the origin of ground, whose id is 0, follows them, and then
+//! joints, then the primitives and then the points on curves, forces as `forces::APPLIED` says, by
+//! components. Markers keep their places; a marker at the origin of ground, whose id is 0, follows them, and then
 //! those from which coupled coordinates are measured. General constraints are those of the dataset,
 //! then couplers, then gears.
 
 mod bodies;
 mod composite;
 mod couplers;
+mod curves;
 mod elastic;
 mod elements;
 mod expression;
@@ -112,6 +113,7 @@ pub(crate) fn lower(
         results: Vec::new(),
         tables: tables::Tables::default(),
         linear_systems: linear_systems::LinearSystems::new(dataset),
+        curves: curves::Curves::default(),
         diagnostics: Vec::new(),
         told: HashSet::new(),
         refused: Vec::new(),
@@ -124,6 +126,7 @@ pub(crate) fn lower(
     lowering.break_circles();
     lowering.bodies(&mut model);
     lowering.joints(&mut model);
+    lowering.point_curves(&mut model);
     lowering.frictions(&mut model);
     lowering.constraints(&mut model);
     lowering.couplers(&mut model);
@@ -177,6 +180,7 @@ struct Lowering<'a> {
     tables: tables::Tables,
     /// LSE and TFSISO.
     linear_systems: linear_systems::LinearSystems,
+    curves: curves::Curves,
     diagnostics: Vec<Diagnostic>,
     /// Places and texts of the diagnostics.
     told: HashSet<(usize, usize, String)>,
@@ -198,6 +202,10 @@ impl Lowering<'_> {
                 Switchable::Joint => Element::Joint(dataset.joints.position(id)?),
                 Switchable::Primitive => {
                     Element::Joint(dataset.joints.len() + dataset.primitives.position(id)?)
+                }
+                Switchable::PointCurve => {
+                    let before = dataset.joints.len() + dataset.primitives.len();
+                    Element::Joint(before + dataset.point_curves.position(id)?)
                 }
                 Switchable::Constraint => Element::Constraint(dataset.constraints.position(id)?),
                 Switchable::Coupler => {

@@ -77,6 +77,11 @@ impl ResultSource {
                 let primitive = dataset.primitives.position(number(0)?)?;
                 ForceElement::Constraint(Owner::Joint(dataset.joints.len() + primitive))
             }
+            F::Ptcv => {
+                let point = dataset.point_curves.position(number(0)?)?;
+                let before = dataset.joints.len() + dataset.primitives.len();
+                ForceElement::Constraint(Owner::Joint(before + point))
+            }
             F::Motion => {
                 let motion = dataset.motions.position(number(0)?)?;
                 ForceElement::Constraint((*lowering.motions.get(motion)?)?)

@@ -11,6 +11,7 @@ mod bristles;
 mod commands;
 mod corpus;
 mod couplers;
+mod curves;
 mod delta_robot;
 mod diagnostics;
 mod differential;
