@@ -60,29 +60,36 @@ pub struct Across {
     pub hessian: Matrix3<f64>,
 }
 
+/// Why there is no curve through given points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undrawable {
+    /// The point of this number, from 0, is the same as the one before it.
+    Coincident(usize),
+    /// There are fewer than four points, or some are too far apart to tell others from one another.
+    FewPoints,
+}
+
 impl Curve {
     /// A curve through at least four points; of a closed one the last point is the first.
     ///
     /// # Errors
-    /// The number, from 0, of a point that coincides with the one before it.
-    ///
-    /// # Panics
-    /// With fewer than four points: callers check.
-    pub fn through(points: &[Vector3<f64>], closed: bool, drawing: Drawing) -> Result<Self, usize> {
+    /// Why there is none.
+    pub fn through(
+        points: &[Vector3<f64>],
+        closed: bool,
+        drawing: Drawing,
+    ) -> Result<Self, Undrawable> {
         let mut parameters = vec![0.0];
         let mut length = 0.0;
         for (place, pair) in points.windows(2).enumerate() {
             let chord = (pair[1] - pair[0]).norm();
             if !(chord > 0.0) {
-                return Err(place + 1);
+                return Err(Undrawable::Coincident(place + 1));
             }
             length += chord;
             parameters.push(length);
         }
-        let coordinates = [0, 1, 2].map(|axis| {
-            let values: Vec<f64> = points.iter().map(|point| point[axis]).collect();
-            draw(&parameters, &values, closed, drawing)
-        });
+        let coordinates = draw(&parameters, points, closed, drawing)?;
         let mut curve = Self {
             across: coordinates.clone(),
             coordinates,
@@ -96,7 +103,7 @@ impl Curve {
             places.extend((0..FINENESS).map(|k| pair[0] + share(k) * (pair[1] - pair[0])));
         }
         places.push(length);
-        curve.across = curve.field(&places);
+        curve.across = curve.field(&places)?;
         curve.samples = places
             .into_iter()
             .map(|s| (s, curve.vector(0, s)))
@@ -107,7 +114,7 @@ impl Curve {
     /// Directions across the curve that turn about it as little as can be (the double reflections
     /// of Wang, Jüttler, Zheng and Liu, *Computation of rotation minimizing frames*, 2008); along a
     /// closed curve the turn that remains is spread evenly.
-    fn field(&self, places: &[f64]) -> [PiecewiseCubic; 3] {
+    fn field(&self, places: &[f64]) -> Result<[PiecewiseCubic; 3], Undrawable> {
         let tangent = |s: f64| self.vector(1, s).normalize();
         let reflected = |v: &Vector3<f64>, along: &Vector3<f64>| {
             let square = along.norm_squared();
@@ -140,10 +147,7 @@ impl Curve {
             let last = field.len() - 1;
             field[last] = first;
         }
-        [0, 1, 2].map(|axis| {
-            let values: Vec<f64> = field.iter().map(|direction| direction[axis]).collect();
-            draw(places, &values, self.closed, Drawing::Spline)
-        })
+        draw(places, &field, self.closed, Drawing::Spline)
     }
 
     /// Length of all chords: the greatest parameter.
@@ -239,14 +243,25 @@ impl Curve {
 /// Newton's method for the nearest point needs a handful; more only far from the curve.
 const ITERATIONS: usize = 50;
 
-fn draw(parameters: &[f64], values: &[f64], closed: bool, drawing: Drawing) -> PiecewiseCubic {
-    match (drawing, closed) {
-        (Drawing::Lines, _) => PiecewiseCubic::polyline(parameters, values),
-        (Drawing::Spline, false) => {
-            PiecewiseCubic::cubic_spline(parameters, values, Extrapolation::Tangent)
-        }
-        (Drawing::Spline, true) => PiecewiseCubic::periodic(parameters, values),
-    }
+/// The three components of vectors as functions of a parameter.
+fn draw(
+    parameters: &[f64],
+    vectors: &[Vector3<f64>],
+    closed: bool,
+    drawing: Drawing,
+) -> Result<[PiecewiseCubic; 3], Undrawable> {
+    let component = |axis: usize| {
+        let values: Vec<f64> = vectors.iter().map(|vector| vector[axis]).collect();
+        let drawn = match (drawing, closed) {
+            (Drawing::Lines, _) => PiecewiseCubic::polyline(parameters, &values),
+            (Drawing::Spline, false) => {
+                PiecewiseCubic::cubic_spline(parameters, &values, Extrapolation::Tangent)
+            }
+            (Drawing::Spline, true) => PiecewiseCubic::periodic(parameters, &values),
+        };
+        drawn.ok_or(Undrawable::FewPoints)
+    };
+    Ok([component(0)?, component(1)?, component(2)?])
 }
 
 /// Value and three derivatives of a vector.
@@ -331,6 +346,11 @@ mod tests {
         }
         let mut doubled = points;
         doubled[2] = doubled[1];
-        assert_eq!(Curve::through(&doubled, false, Drawing::Lines), Err(2));
+        assert_eq!(
+            Curve::through(&doubled, false, Drawing::Lines),
+            Err(Undrawable::Coincident(2))
+        );
+        let few = Curve::through(&doubled[..2], false, Drawing::Lines);
+        assert_eq!(few, Err(Undrawable::FewPoints));
     }
 }

@@ -18,20 +18,6 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Whether a curve can be drawn through its points: false only where reading it gave errors.
-    #[must_use]
-    pub fn is_interpolable(&self) -> bool {
-        let rises = |values: &mut dyn Iterator<Item = f64>| values.is_sorted_by(|a, b| a < b);
-        self.x.len() >= Self::FEWEST
-            && rises(&mut self.x.iter().copied())
-            && !self.curves.is_empty()
-            && rises(&mut self.curves.iter().map(|curve| curve.z))
-            && self
-                .curves
-                .iter()
-                .all(|curve| curve.y.len() == self.x.len())
-    }
-
     /// The fewest points that a curve is drawn through.
     pub const FEWEST: usize = 4;
 }

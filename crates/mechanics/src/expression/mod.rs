@@ -292,12 +292,13 @@ mod tests {
     fn lookups_have_exact_slopes_and_jets() {
         use numerics::interpolation::{Extrapolation, PiecewiseCubic};
         let x = [0.0, 1.0, 2.0, 4.0];
-        let curve = |y: [f64; 4]| PiecewiseCubic::cubic_spline(&x, &y, Extrapolation::Line);
+        let curve =
+            |y: [f64; 4]| PiecewiseCubic::cubic_spline(&x, &y, Extrapolation::Line).unwrap();
         let family = vec![
             (0.0, curve([1.0, -1.0, 2.0, 3.0])),
             (1.0, curve([0.0, 2.0, 2.0, -1.0])),
         ];
-        let table = Arc::new(Surface::new(family));
+        let table = Arc::new(Surface::new(family).unwrap());
         for order in 0..=2 {
             let mut program = Program::default();
             let x = program.push(Operation::Input(Input::Measure(0)));

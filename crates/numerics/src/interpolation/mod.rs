@@ -11,7 +11,7 @@ pub use surface::{Surface, SurfacePoint};
 /// ```
 /// use numerics::interpolation::{Extrapolation, PiecewiseCubic};
 /// let x = [0.0, 1.0, 2.0, 4.0];
-/// let curve = PiecewiseCubic::cubic_spline(&x, &x.map(|x| x * x), Extrapolation::Parabola);
+/// let curve = PiecewiseCubic::cubic_spline(&x, &x.map(|x| x * x), Extrapolation::Parabola).unwrap();
 /// let [value, slope, curvature, ..] = curve.derivatives(3.0);
 /// assert!((value - 9.0).abs() < 1e-14);
 /// assert!((slope - 6.0).abs() < 1e-14);
@@ -41,38 +41,32 @@ impl PiecewiseCubic {
     /// slope is continuous. H. Akima, *A new method of interpolation and smooth curve fitting based
     /// on local procedures*, J. ACM 17 (1970) 589-602; ends by his section 2.3.
     ///
-    /// # Panics
-    /// With fewer than four points, or as many `y` as `x` do not come, or `x` that does not
-    /// increase: callers check their data.
+    /// `None` through fewer than four points, where `x` does not increase, and where not every `x`
+    /// has its `y`; so for all curves.
     #[must_use]
-    pub fn akima(x: &[f64], y: &[f64], extrapolation: Extrapolation) -> Self {
-        check(x, y);
-        Self::through(x, y, &akima::slopes(x, y), extrapolation)
+    pub fn akima(x: &[f64], y: &[f64], extrapolation: Extrapolation) -> Option<Self> {
+        is_drawable(x, y).then(|| Self::through(x, y, &akima::slopes(x, y), extrapolation))
     }
 
     /// The cubic spline: two continuous derivatives; at the second and the last but one point the
     /// third is continuous too ("not a knot": C. de Boor, *A Practical Guide to Splines*, chapter
-    /// IV), so that a cubic is met everywhere.
-    ///
-    /// # Panics
-    /// As [`PiecewiseCubic::akima`].
+    /// IV), so that a cubic is met everywhere. `None` as for [`PiecewiseCubic::akima`].
     #[must_use]
-    pub fn cubic_spline(x: &[f64], y: &[f64], extrapolation: Extrapolation) -> Self {
-        check(x, y);
-        Self::through(x, y, &cubic::slopes(x, y), extrapolation)
+    pub fn cubic_spline(x: &[f64], y: &[f64], extrapolation: Extrapolation) -> Option<Self> {
+        is_drawable(x, y).then(|| Self::through(x, y, &cubic::slopes(x, y), extrapolation))
     }
 
     /// The cubic spline that repeats itself: the last `y` is the first one, and two derivatives are
-    /// continuous there too. Outside its points it goes on by tangents, not by repetition.
-    ///
-    /// # Panics
-    /// As [`PiecewiseCubic::akima`].
+    /// continuous there too. Outside its points it goes on by tangents, not by repetition. `None` as
+    /// for [`PiecewiseCubic::akima`].
     #[must_use]
-    pub fn periodic(x: &[f64], y: &[f64]) -> Self {
+    pub fn periodic(x: &[f64], y: &[f64]) -> Option<Self> {
         /// Points that the curve is continued by on both sides. What its ends do fades by more
         /// than one half from point to point, so that nothing is left of it.
         const ROUND: usize = 60;
-        check(x, y);
+        if !is_drawable(x, y) {
+            return None;
+        }
         let (last, period) = (x.len() - 1, x[x.len() - 1] - x[0]);
         let count = x.len() + 2 * ROUND;
         let (mut xs, mut ys) = (Vec::with_capacity(count), Vec::with_capacity(count));
@@ -83,29 +77,24 @@ impl PiecewiseCubic {
             ys.push(y[place]);
         }
         let slopes = cubic::slopes(&xs, &ys);
-        Self::through(
-            x,
-            y,
-            &slopes[ROUND..ROUND + x.len()],
-            Extrapolation::Tangent,
-        )
+        let slopes = &slopes[ROUND..ROUND + x.len()];
+        Some(Self::through(x, y, slopes, Extrapolation::Tangent))
     }
 
-    /// The line from point to point.
-    ///
-    /// # Panics
-    /// As [`PiecewiseCubic::akima`].
+    /// The line from point to point. `None` as for [`PiecewiseCubic::akima`].
     #[must_use]
-    pub fn polyline(x: &[f64], y: &[f64]) -> Self {
-        check(x, y);
+    pub fn polyline(x: &[f64], y: &[f64]) -> Option<Self> {
+        if !is_drawable(x, y) {
+            return None;
+        }
         let last = x.len() - 1;
         let mut pieces = vec![[y[0], secant(x, y, 0), 0.0, 0.0]];
         pieces.extend((0..last).map(|k| [y[k], secant(x, y, k), 0.0, 0.0]));
         pieces.push([y[last], secant(x, y, last - 1), 0.0, 0.0]);
-        Self {
+        Some(Self {
             knots: x.to_vec(),
             pieces,
-        }
+        })
     }
 
     /// The curve through points with given slopes there.
@@ -176,9 +165,8 @@ impl PiecewiseCubic {
     }
 }
 
-fn check(x: &[f64], y: &[f64]) {
-    assert!(x.len() >= 4 && x.len() == y.len(), "at least four points");
-    assert!(x.windows(2).all(|pair| pair[0] < pair[1]), "x increases");
+fn is_drawable(x: &[f64], y: &[f64]) -> bool {
+    x.len() >= 4 && x.len() == y.len() && x.is_sorted_by(|a, b| a < b)
 }
 
 /// Slope of the line from point `k` to the next one.
@@ -198,6 +186,7 @@ mod tests {
             PiecewiseCubic::akima(&X, &Y, extrapolation),
             PiecewiseCubic::cubic_spline(&X, &Y, extrapolation),
         ]
+        .map(Option::unwrap)
     }
 
     #[test]
@@ -237,13 +226,13 @@ mod tests {
     #[test]
     fn a_cubic_is_its_own_spline_and_a_parabola_is_extrapolated() {
         let cubic = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x + 0.3 * x * x * x;
-        let curve = PiecewiseCubic::cubic_spline(&X, &X.map(cubic), Extrapolation::Line);
+        let curve = PiecewiseCubic::cubic_spline(&X, &X.map(cubic), Extrapolation::Line).unwrap();
         for x in [-0.9, 0.3, 1.7, 3.1, 4.9] {
             assert!((curve.derivatives(x)[0] - cubic(x)).abs() < 1e-13);
         }
         let parabola = |x: f64| 1.0 - 2.0 * x + 0.5 * x * x;
         // Akima's ends are parabolas (his section 2.3) and a line's are lines.
-        let curve = PiecewiseCubic::akima(&X, &X.map(parabola), Extrapolation::Parabola);
+        let curve = PiecewiseCubic::akima(&X, &X.map(parabola), Extrapolation::Parabola).unwrap();
         for x in [-5.0, 9.0] {
             assert!((curve.derivatives(x)[0] - parabola(x)).abs() < 1e-13);
         }
@@ -261,7 +250,7 @@ mod tests {
         let x = [0.0, 0.9, 2.1, 3.0, 4.4, 5.2, std::f64::consts::TAU];
         let mut y = x.map(f64::sin);
         y[6] = 0.0;
-        let curve = PiecewiseCubic::periodic(&x, &y);
+        let curve = PiecewiseCubic::periodic(&x, &y).unwrap();
         let (start, end) = (curve.derivatives(0.0), curve.derivatives(x[6] - 1e-12));
         for order in 0..=2 {
             // The distance to the end times derivatives of order one, and rounding.
@@ -282,12 +271,40 @@ mod tests {
         let y = [
             10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.5, 15.0, 50.0, 60.0, 85.0,
         ];
-        let curve = PiecewiseCubic::akima(&x, &y, Extrapolation::Parabola);
+        let curve = PiecewiseCubic::akima(&x, &y, Extrapolation::Parabola).unwrap();
         for k in 0..=40 {
             assert_eq!(curve.derivatives(0.1 * f64::from(k))[0], 10.0);
         }
         // At x = 6 the secants are 0, 1/2, 9/2 and 35: the slope is (30.5·0.5 + 0.5·4.5)/31.
         let wanted = (30.5 * 0.5 + 0.5 * 4.5) / 31.0;
         assert!((curve.derivatives(6.0)[1] - wanted).abs() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_no_curve_is_not_drawn() {
+        let drawn = |x: &[f64], y: &[f64]| {
+            [
+                PiecewiseCubic::akima(x, y, Extrapolation::Line),
+                PiecewiseCubic::cubic_spline(x, y, Extrapolation::Line),
+                PiecewiseCubic::periodic(x, y),
+                PiecewiseCubic::polyline(x, y),
+            ]
+        };
+        let y = [0.0; 4];
+        assert!(drawn(&[0.0, 1.0, 2.0, 3.0], &y).iter().all(Option::is_some));
+        for x in [
+            [0.0, 2.0, 1.0, 3.0],
+            [0.0, 1.0, 1.0, 2.0],
+            [0.0, 1.0, 2.0, f64::NAN],
+            [0.0, 1.0, f64::INFINITY, f64::INFINITY],
+        ] {
+            assert!(drawn(&x, &y).iter().all(Option::is_none), "{x:?}");
+        }
+        assert!(drawn(&[0.0, 1.0, 2.0], &y[..3]).iter().all(Option::is_none));
+        assert!(
+            drawn(&[0.0, 1.0, 2.0, 3.0], &y[..3])
+                .iter()
+                .all(Option::is_none)
+        );
     }
 }

@@ -35,18 +35,13 @@ impl From<PiecewiseCubic> for Surface {
 }
 
 impl Surface {
-    /// A family of curves.
-    ///
-    /// # Panics
-    /// Without a curve, or where `z` does not increase from curve to curve: callers check.
+    /// A family of curves; `None` without a curve, and where `z` does not increase from curve to
+    /// curve.
     #[must_use]
-    pub fn new(family: Vec<(f64, PiecewiseCubic)>) -> Self {
+    pub fn new(family: Vec<(f64, PiecewiseCubic)>) -> Option<Self> {
         let (z, curves): (Vec<f64>, Vec<PiecewiseCubic>) = family.into_iter().unzip();
-        assert!(
-            !z.is_empty() && z.windows(2).all(|pair| pair[0] < pair[1]),
-            "z increases"
-        );
-        Self { z, curves }
+        let drawable = !z.is_empty() && z.is_sorted_by(|a, b| a < b);
+        drawable.then_some(Self { z, curves })
     }
 
     /// The `order`-th derivative by `x` (at most 2) at a point, with its own derivatives.
@@ -55,9 +50,9 @@ impl Surface {
     /// use numerics::interpolation::{Extrapolation, PiecewiseCubic, Surface};
     /// let x = [0.0, 1.0, 2.0, 4.0];
     /// let line = |slope: f64| {
-    ///     PiecewiseCubic::akima(&x, &x.map(|x| slope * x), Extrapolation::Line)
+    ///     PiecewiseCubic::akima(&x, &x.map(|x| slope * x), Extrapolation::Line).unwrap()
     /// };
-    /// let surface = Surface::new(vec![(0.0, line(1.0)), (2.0, line(5.0))]);
+    /// let surface = Surface::new(vec![(0.0, line(1.0)), (2.0, line(5.0))]).unwrap();
     /// let point = surface.at(0, 3.0, 0.5);
     /// assert_eq!((point.value, point.by_x, point.by_z, point.by_xz), (6.0, 2.0, 6.0, 2.0));
     /// ```
@@ -101,12 +96,14 @@ mod tests {
     #[test]
     fn derivatives_match_differences() {
         let x = [0.0, 1.0, 2.0, 4.0, 5.0];
-        let curve = |y: [f64; 5]| PiecewiseCubic::cubic_spline(&x, &y, Extrapolation::Parabola);
+        let curve =
+            |y: [f64; 5]| PiecewiseCubic::cubic_spline(&x, &y, Extrapolation::Parabola).unwrap();
         let surface = Surface::new(vec![
             (-1.0, curve([1.0, -1.0, 2.0, 3.0, 0.0])),
             (0.5, curve([0.0, 2.0, 2.0, -1.0, 1.0])),
             (2.0, curve([3.0, 1.0, -2.0, 0.0, 4.0])),
-        ]);
+        ])
+        .unwrap();
         let h = 1e-5;
         for order in 0..=2 {
             for x in [-1.0, 0.4, 3.0, 7.0] {

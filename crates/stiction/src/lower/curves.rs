@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use dataset::{Code, Expr};
-use mechanics::curve::{Curve, Drawing};
+use mechanics::curve::{Curve, Drawing, Undrawable};
 use mechanics::expression::{Binary, Operation, Register};
 use mechanics::model::{Joint, JointKind, JointStart, Model};
 use nalgebra::Vector3;
@@ -80,24 +80,26 @@ impl Lowering<'_> {
         } else {
             Drawing::Spline
         };
-        let drawn = if points.is_empty() {
-            let message = format!("CURVE/{id} has no points");
-            self.error(Code::MissingElement, given.header.span, message, None);
-            None
-        } else {
-            match Curve::through(&points, given.closed, drawing) {
-                Ok(curve) => Some(Arc::new(curve)),
-                Err(place) => {
-                    let message = format!(
+        let drawn = Curve::through(&points, given.closed, drawing);
+        if let Err(reason) = drawn {
+            let (code, message, help) = match reason {
+                Undrawable::FewPoints => (
+                    Code::MissingElement,
+                    format!("CURVE/{id} has no points that a curve can be drawn through"),
+                    None,
+                ),
+                Undrawable::Coincident(place) => (
+                    Code::InvalidValue,
+                    format!(
                         "CURVE/{id}: point {} is the same as the one before it",
                         place + 1
-                    );
-                    let help = "take one of the two out of its MATRIX";
-                    self.error(Code::InvalidValue, given.header.span, message, Some(help));
-                    None
-                }
-            }
-        };
+                    ),
+                    Some("take one of the two out of its MATRIX"),
+                ),
+            };
+            self.error(code, given.header.span, message, help);
+        }
+        let drawn = drawn.ok().map(Arc::new);
         self.curves.insert(id, drawn.clone());
         drawn
     }

@@ -8,24 +8,22 @@ use numerics::interpolation::{Extrapolation, PiecewiseCubic, Surface};
 
 use super::Lowering;
 
-/// The tables of a model, each once.
+/// The tables of a model, each once; `None` for a spline that was read with errors.
 #[derive(Debug, Default)]
-pub(super) struct Tables(HashMap<(Function, u32), Arc<Surface>>);
+pub(super) struct Tables(HashMap<(Function, u32), Option<Arc<Surface>>>);
 
 impl Lowering<'_> {
     /// The spline of this id as AKISPL or CUBSPL interpolates it; `None` where there is none that
     /// was read without errors.
     pub(super) fn table(&mut self, function: Function, id: u32) -> Option<Arc<Surface>> {
-        let spline = self.dataset.splines.by_id(id);
-        let spline = spline.filter(|spline| spline.is_interpolable())?;
+        let spline = self.dataset.splines.by_id(id)?;
         let table = self.tables.0.entry((function, id));
-        Some(Arc::clone(
-            table.or_insert_with(|| Arc::new(surface(function, spline))),
-        ))
+        let table = table.or_insert_with(|| surface(function, spline).map(Arc::new));
+        table.clone()
     }
 }
 
-fn surface(function: Function, spline: &Spline) -> Surface {
+fn surface(function: Function, spline: &Spline) -> Option<Surface> {
     let extrapolation = if spline.linear_extrapolate {
         Extrapolation::Line
     } else {
@@ -36,9 +34,6 @@ fn surface(function: Function, spline: &Spline) -> Surface {
         _ => PiecewiseCubic::cubic_spline,
     };
     let curves = spline.curves.iter();
-    Surface::new(
-        curves
-            .map(|curve| (curve.z, through(&spline.x, &curve.y, extrapolation)))
-            .collect(),
-    )
+    let drawn = curves.map(|curve| Some((curve.z, through(&spline.x, &curve.y, extrapolation)?)));
+    Surface::new(drawn.collect::<Option<_>>()?)
 }

@@ -227,4 +227,6 @@ END
         said.contains("point 3 is the same as the one before it"),
         "{said}"
     );
+    let few = refusal(&format!("{GROUND}{}{bead}", curve(&corner[..2], "OPEN")));
+    assert!(few.contains("needs at least 4 points"), "{few}");
 }
