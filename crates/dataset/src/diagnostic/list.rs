@@ -96,19 +96,17 @@ impl<'a> Diagnostics<'a> {
         let mut firsts: HashMap<String, usize> = HashMap::new();
         let mut others: Vec<(usize, Vec<String>)> = Vec::new();
         let mut kept: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
-        for diagnostic in self.list.drain(..) {
-            let name = match diagnostic.code {
-                Code::UnsupportedStatement => self.source.excerpt(diagnostic.span).to_string(),
-                Code::UnsupportedArgument => {
-                    let (line, _) = self.source.line_column(diagnostic.span.start);
-                    format!("line {line}")
-                }
-                _ => {
-                    kept.push(diagnostic);
-                    continue;
-                }
-            };
-            match firsts.entry(diagnostic.message.clone()) {
+        for diagnostic in std::mem::take(&mut self.list) {
+            let refused = matches!(
+                diagnostic.code,
+                Code::UnsupportedStatement | Code::UnsupportedArgument | Code::UnsupportedFunction
+            );
+            if !refused {
+                kept.push(diagnostic);
+                continue;
+            }
+            let (name, reason) = self.subject(&diagnostic);
+            match firsts.entry(reason) {
                 Entry::Occupied(first) => others[*first.get()].1.push(name),
                 Entry::Vacant(first) => {
                     first.insert(others.len());
@@ -121,6 +119,26 @@ impl<'a> Diagnostics<'a> {
             kept[place].holds_for(&names);
         }
         self.list = kept;
+    }
+
+    /// What a refusal is about, and what is the same in all of its kind: `BEAM/2` and `BEAM: ...`
+    /// where the message begins with the element, else the statement or line, and the message.
+    fn subject(&self, diagnostic: &Diagnostic) -> (String, String) {
+        let message = &diagnostic.message;
+        if let Some((element, reason)) = message.split_once(": ")
+            && let Some((statement, id)) = element.split_once('/')
+            && id.bytes().all(|byte| byte.is_ascii_digit())
+        {
+            return (element.to_owned(), format!("{statement}: {reason}"));
+        }
+        let name = match diagnostic.code {
+            Code::UnsupportedStatement => self.source.excerpt(diagnostic.span).to_string(),
+            _ => {
+                let (line, _) = self.source.line_column(diagnostic.span.start);
+                format!("line {line}")
+            }
+        };
+        (name, message.clone())
     }
 
     /// The messages in the order of their places. The last one tells how many are not shown.
