@@ -100,6 +100,6 @@ pub(crate) struct Argument {
     pub(crate) value_span: Span,
     /// The positions of keyword and value among the items of the statement.
     pub(crate) items: Range<usize>,
-    /// `None` where it is wrong or without effect, which has been reported.
+    /// `None` where it is wrong or without effect, which has been reported, or has been taken.
     pub(crate) value: Option<Value>,
 }

@@ -76,7 +76,7 @@ fn read(
             .help("the first line is the title; statements follow it");
         return (builder.dataset, diagnostics.finish());
     }
-    builder.dataset.texts = Texts::new(source.text());
+    builder.dataset.texts = Texts::new(source);
     let mut buffer = Vec::new();
     for statement in &tree.statements {
         items(&tree, statement, &mut buffer);
@@ -168,10 +168,10 @@ pub(crate) fn read_statement(
         view_name: view_name(tree, statement, diagnostics.source),
     };
     let mut reading = Reading::new(head, &items[raw.rest..], keywords, diagnostics);
-    read(&mut reading, builder);
     for argument in reading.unread() {
         builder.mention(reading.diagnostics.source, argument);
     }
+    read(&mut reading, builder);
 }
 
 /// The name in the last `adams_view_name='...'` comment before a statement.

@@ -97,7 +97,7 @@ impl<'a, 's> Reading<'a, 's> {
         self.argument(keyword).is_some()
     }
 
-    /// The items of the arguments that are not read.
+    /// The items of the arguments that are not read; to be asked before any value is taken.
     pub(crate) fn unread(&self) -> impl Iterator<Item = &'a [Item]> {
         let unread = self.arguments.iter().filter(|a| a.value.is_none());
         unread.map(|argument| &self.items[argument.items.clone()])
@@ -236,10 +236,14 @@ impl<'a, 's> Reading<'a, 's> {
         }
     }
 
-    /// An expression.
-    pub(crate) fn expression(&self, keyword: &str) -> Option<Expression> {
-        match self.value(keyword)? {
-            Value::Expression(expression) => Some(expression.clone()),
+    /// Takes an expression out of its argument, which has no value from then on.
+    pub(crate) fn expression(&mut self, keyword: &str) -> Option<Expression> {
+        let given = self.arguments.iter_mut().filter(|a| a.keyword == keyword);
+        let mut given = given.map(|argument| &mut argument.value);
+        let is_expression =
+            |value: &&mut Option<Value>| matches!(value, Some(Value::Expression(_)));
+        match given.find(is_expression)?.take()? {
+            Value::Expression(expression) => Some(expression),
             _ => None,
         }
     }

@@ -1,6 +1,7 @@
 //! The text of a dataset or command file, and places in it.
 
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use std::sync::Arc;
 
 /// A half-open range of byte offsets into the decoded text of a [`Source`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,7 +36,7 @@ impl Span {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     name: String,
-    text: String,
+    text: Arc<str>,
     encoding: Encoding,
     line_starts: Vec<u32>,
     /// For every character of more than one byte its offset, once for each further byte.
@@ -97,15 +98,13 @@ impl Source {
             None => (bytes, Encoding::Utf8),
         };
         let (text, encoding) = match std::str::from_utf8(bytes) {
-            Ok(text) => (text.to_owned(), utf8),
+            Ok(text) => (Arc::from(text), utf8),
             Err(_) => {
-                let text = bytes.iter().map(|byte| char::from(*byte)).collect();
-                (text, Encoding::Latin1)
+                let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+                (text.into(), Encoding::Latin1)
             }
         };
-        let mut source = Self::from_text(name, text);
-        source.encoding = encoding;
-        Ok(source)
+        Ok(Self::new(name, text, encoding))
     }
 
     /// A source made of a text that is in memory already, for example one command line.
@@ -116,6 +115,10 @@ impl Source {
     /// ```
     #[must_use]
     pub fn from_text(name: &str, text: String) -> Self {
+        Self::new(name, text.into(), Encoding::Utf8)
+    }
+
+    fn new(name: &str, text: Arc<str>, encoding: Encoding) -> Self {
         // Offsets fit, since a source is not longer than `LONGEST_SOURCE`.
         let newlines = memchr::memchr_iter(b'\n', text.as_bytes());
         let line_starts = std::iter::once(0)
@@ -130,7 +133,7 @@ impl Source {
         Self {
             name: name.to_string(),
             text,
-            encoding: Encoding::Utf8,
+            encoding,
             line_starts,
             wide,
         }
@@ -174,6 +177,11 @@ impl Source {
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The decoded text, to be kept for longer than the source.
+    pub(crate) fn shared_text(&self) -> Arc<str> {
+        Arc::clone(&self.text)
     }
 
     /// The text of `span`; empty where the span lies outside the text or splits a character.

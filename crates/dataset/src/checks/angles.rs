@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Code;
 use crate::reading::Reading;
+use crate::source::Span;
 use std::f64::consts::TAU;
 
 /// Angles in degrees are multiples of this as a rule, in degrees.
@@ -16,23 +17,20 @@ pub(crate) fn check(reading: &mut Reading, keyword: &'static str, count: usize) 
         let degrees = text.ends_with(['d', 'D']);
         !degrees && value.abs() > TAU && value % ROUND == 0.0
     };
-    let texts: Vec<(String, bool)> = values
-        .iter()
-        .enumerate()
-        .map(|(place, (value, span))| {
-            let text = source.slice(*span);
-            let suspect = place < count && looks(*value, text);
-            let suffix = if suspect { "D" } else { "" };
-            (format!("{text}{suffix}"), suspect)
-        })
-        .collect();
-    let Some(place) = texts.iter().position(|(_, suspect)| *suspect) else {
+    let suspect = |value: f64, span: Span| looks(value, source.slice(span));
+    let mut angles = values.iter().take(count);
+    let Some((value, _)) = angles.find(|(value, span)| suspect(*value, *span)) else {
         return;
     };
-    let (value, _) = values[place];
     let all = values[0].1.to(values[values.len() - 1].1);
-    let written: Vec<String> = texts.into_iter().map(|(text, _)| text).collect();
-    let written = written.join(", ");
+    let written = values.iter().enumerate().map(|(place, (value, span))| {
+        let suffix = match place < count && suspect(*value, *span) {
+            true => "D",
+            false => "",
+        };
+        format!("{}{suffix}", source.slice(*span))
+    });
+    let written = written.collect::<Vec<_>>().join(", ");
     let message = format!(
         "{keyword} of {} looks like degrees: {value} rad are {:.1} turns",
         reading.label(),

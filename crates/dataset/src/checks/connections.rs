@@ -109,13 +109,13 @@ fn two_parts(
     let (Some(owner_i), Some(owner_j)) = (owner(i), owner(j)) else {
         return;
     };
-    let part = match owner_i {
-        MarkerOwner::Part(id) if id > 0 => format!("PART/{id}"),
-        MarkerOwner::PointMass(id) if id > 0 => format!("POINT_MASS/{id}"),
+    let (body, id) = match owner_i {
+        MarkerOwner::Part(id) if id > 0 => ("PART", id),
+        MarkerOwner::PointMass(id) if id > 0 => ("POINT_MASS", id),
         _ => return,
     };
     if owner_i == owner_j {
-        let message = format!("both markers of {name} are on {part}");
+        let message = format!("both markers of {name} are on {body}/{id}");
         diagnostics
             .error(Code::InvalidConnection, span, message)
             .note(format!("I = {i} and J = {j}"))

@@ -42,7 +42,7 @@ fn joint_fits(
     diagnostics: &mut Diagnostics,
 ) -> bool {
     use JointKind as J;
-    let name = format!("FRICTION/{}", friction.header.id);
+    let name = format_args!("FRICTION/{}", friction.header.id);
     let keyword = joint.keyword();
     match joint {
         J::Hooke | J::Universal => {
@@ -81,7 +81,7 @@ pub(crate) fn unused_arguments(
     given: &FrictionArguments,
     diagnostics: &mut Diagnostics,
 ) {
-    let name = format!("FRICTION/{}", friction.header.id);
+    let name = format_args!("FRICTION/{}", friction.header.id);
     let mut unused = |keyword: &str, span: Span, by: &str| {
         let message = format!("{keyword} of {name} is not used by {by}");
         diagnostics.warning(Code::UnusedArgument, span, message);
@@ -132,6 +132,9 @@ fn dimensional_defaults(
     let time = units.and_then(|units| units.time);
     let of_length = length != Some(LengthUnit::Millimeter);
     let of_time = time != Some(TimeUnit::Second);
+    if !of_length && !of_time {
+        return;
+    }
     let defaults: Vec<String> = friction
         .defaults_in_use(joint)
         .into_iter()

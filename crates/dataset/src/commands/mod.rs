@@ -118,7 +118,7 @@ pub(crate) fn read_command(
         let keywords = &amendment::with_list(keywords);
         let mut reading = Reading::new(head, &buffer[raw.rest..], Some(keywords), diagnostics);
         let kind = amendment::amend(&mut reading, keywords)?;
-        let echo = join(diagnostics.source, buffer);
+        let echo = join(diagnostics.source, buffer.iter());
         return Some(Command { kind, echo, span });
     };
     let name = rule.name.full;
@@ -145,7 +145,7 @@ pub(crate) fn read_command(
     };
     let mut reading = Reading::new(head, &buffer[raw.rest..], Some(keywords), diagnostics);
     let kind = read(&mut reading)?;
-    let echo = join(diagnostics.source, buffer);
+    let echo = join(diagnostics.source, buffer.iter());
     Some(Command { kind, echo, span })
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn parse(
         source,
         items,
         at: start,
-        used: Vec::new(),
+        start,
         nesting: 0,
         brackets: 0,
         is_argument,
@@ -68,11 +68,8 @@ pub(crate) fn parse(
     if let Some(item) = parser.peek() {
         return Err(parser.unexpected(item, "an operator or the end of the expression"));
     }
-    let span = match (parser.used.first(), parser.used.last()) {
-        (Some(first), Some(last)) => first.span().to(last.span()),
-        _ => Span::default(),
-    };
-    let text = join(source, &parser.used);
+    let span = parser.span_from(start).unwrap_or_default();
+    let text = join(source, parser.used());
     Ok((Expression { span, root, text }, parser.at))
 }
 
@@ -80,8 +77,8 @@ struct Parser<'a> {
     source: &'a Source,
     items: &'a [Item],
     at: usize,
-    /// The items of the expression so far.
-    used: Vec<Item>,
+    /// Where the expression starts.
+    start: usize,
     nesting: usize,
     brackets: usize,
     is_argument: &'a dyn Fn(&str) -> bool,
@@ -91,6 +88,21 @@ struct Parser<'a> {
 type Parsed = Result<(Expr, usize), Problem>;
 
 impl Parser<'_> {
+    /// The items of the expression so far: all but the commas that continue lines.
+    fn used(&self) -> impl DoubleEndedIterator<Item = &Item> {
+        let items = &self.items[self.start..self.at];
+        items.iter().filter(|item| !item.continues)
+    }
+
+    /// The place of the items of the expression from `first` to where the parser stands.
+    fn span_from(&self, first: usize) -> Option<Span> {
+        let mut used = self.items[first..self.at]
+            .iter()
+            .filter(|item| !item.continues);
+        let span = used.next()?.span();
+        Some(used.next_back().map_or(span, |last| span.to(last.span())))
+    }
+
     /// The next item of the expression; `None` where it ends.
     fn peek(&mut self) -> Option<Item> {
         while let Some(item) = self.items.get(self.at).copied() {
@@ -125,7 +137,6 @@ impl Parser<'_> {
     }
 
     fn take(&mut self) {
-        self.used.extend(self.items.get(self.at));
         self.at += 1;
     }
 
@@ -154,7 +165,11 @@ impl Parser<'_> {
         let message = format!("expected {expected}, found `{found}`");
         let mut problem = self.problem(Code::Expression, item.span(), message);
         let after_break = self.at > 0 && self.items[self.at - 1].continues;
-        let before = self.used.last().copied().filter(|_| self.after_operand());
+        let before = self
+            .used()
+            .next_back()
+            .copied()
+            .filter(|_| self.after_operand());
         let touches = before.is_some_and(|before| before.span().end == item.span().start);
         let number = |item: Item| item.kind() == TokenKind::Number;
         if found == "^" {
@@ -187,7 +202,7 @@ impl Parser<'_> {
 
     /// Whether the expression so far may end here.
     fn after_operand(&self) -> bool {
-        self.used.last().is_some_and(|item| {
+        self.used().next_back().is_some_and(|item| {
             matches!(
                 item.kind(),
                 TokenKind::Number | TokenKind::Word | TokenKind::RightParenthesis
@@ -245,7 +260,7 @@ impl Parser<'_> {
     }
 
     fn unexpected_end(&self, expected: &str) -> Problem {
-        let span = self.used.last().map_or_else(
+        let span = self.used().next_back().map_or_else(
             || {
                 let before = self.at.min(self.items.len()).saturating_sub(1);
                 self.items
@@ -482,10 +497,9 @@ impl Parser<'_> {
             if arguments.is_empty() && next == Some(TokenKind::RightParenthesis) {
                 break;
             }
-            let first = self.used.len();
+            let first = self.at;
             let (argument, depth) = self.sum()?;
-            let place = self.used.get(first).map_or(open.span(), |item| item.span());
-            let place = self.used.last().map_or(place, |item| place.to(item.span()));
+            let place = self.span_from(first).unwrap_or(open.span());
             self.check_argument(function, arguments.len(), &argument, place)?;
             arguments.push(argument);
             deepest = deepest.max(depth);

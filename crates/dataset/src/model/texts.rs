@@ -1,6 +1,6 @@
 //! The texts of statements, for commands that change some of their arguments.
 
-use crate::source::Span;
+use crate::source::{Source, Span};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
@@ -14,9 +14,9 @@ pub(crate) struct Texts {
 }
 
 impl Texts {
-    pub(crate) fn new(source: &str) -> Self {
+    pub(crate) fn new(source: &Source) -> Self {
         Self {
-            source: source.into(),
+            source: source.shared_text(),
             amended: HashMap::new(),
         }
     }

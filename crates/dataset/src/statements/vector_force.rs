@@ -35,7 +35,7 @@ pub(crate) const GENERAL_KEYWORDS: &[Keyword] = &[
 ];
 
 /// The components that are given; one that the statement has no argument for is not.
-pub(crate) fn components(reading: &Reading) -> [Option<Expression>; 6] {
+pub(crate) fn components(reading: &mut Reading) -> [Option<Expression>; 6] {
     ["FX", "FY", "FZ", "TX", "TY", "TZ"].map(|keyword| reading.expression(keyword))
 }
 

@@ -62,15 +62,22 @@ pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut 
 }
 
 /// The text of items on one line: blanks as one blank, comments and marks left out.
-pub(crate) fn join(source: &Source, items: &[Item]) -> String {
+pub(crate) fn join<'a>(source: &Source, items: impl IntoIterator<Item = &'a Item>) -> String {
     let mut text = String::new();
-    let mut end = items.first().map_or(0, |item| item.span().start);
+    // Items that stand next to one another are copied in one go.
+    let mut run: Option<Span> = None;
     for item in items {
-        if item.span().start > end {
-            text.push(' ');
+        let span = item.span();
+        match &mut run {
+            Some(run) if run.end == span.start => run.end = span.end,
+            _ => {
+                if let Some(before) = run.replace(span) {
+                    text.push_str(source.slice(before));
+                    text.push(' ');
+                }
+            }
         }
-        text.push_str(source.slice(item.span()));
-        end = item.span().end;
     }
+    text.push_str(run.map_or("", |run| source.slice(run)));
     text
 }

@@ -143,9 +143,11 @@ impl Lexer<'_> {
 
     /// The end of the run of bytes from `start` on that satisfy `belongs`.
     fn run(&self, start: usize, belongs: impl Fn(u8) -> bool) -> usize {
-        let rest = &self.bytes[start.min(self.bytes.len())..];
-        let length = rest.iter().position(|byte| !belongs(*byte));
-        start + length.unwrap_or(rest.len())
+        let mut end = start;
+        while self.bytes.get(end).is_some_and(|byte| belongs(*byte)) {
+            end += 1;
+        }
+        end
     }
 
     fn line_end(&self) -> usize {
@@ -180,8 +182,6 @@ impl Lexer<'_> {
     }
 
     fn next(&mut self) {
-        // Tabs, form feeds, and the byte 26 with which old systems end a text.
-        let is_blank = |byte| matches!(byte, b' ' | b'\t' | 11 | 12 | 26);
         let first = self.bytes[self.at];
         let one = self.at + 1;
         match first {
@@ -240,10 +240,26 @@ impl Lexer<'_> {
     }
 }
 
-/// Bytes above 127 count as letters, so that no character is split.
-const fn is_word(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || byte == b'_' || byte >= 128
+/// Whether a byte is a blank or tab, a form feed, or the byte 26 with which old systems end a text.
+const fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | 11 | 12 | 26)
 }
+
+/// Whether a byte can stand in a word.
+const fn is_word(byte: u8) -> bool {
+    WORD[byte as usize]
+}
+
+/// The bytes of words. Those above 127 count as letters, so that no character is split.
+const WORD: [bool; 256] = {
+    let mut word = [false; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        word[byte] = byte >= 128 || (byte as u8).is_ascii_alphanumeric() || byte as u8 == b'_';
+        byte += 1;
+    }
+    word
+};
 
 /// A number with an exponent after `D`, as FORTRAN writes it, with `E` instead.
 pub(crate) fn with_exponent(text: &str) -> Option<String> {
