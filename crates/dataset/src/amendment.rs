@@ -135,7 +135,7 @@ fn arguments_of(text: &str, keywords: &[Keyword]) -> Vec<(&'static str, String)>
     let Some(statement) = tree.statements.first() else {
         return Vec::new();
     };
-    items(&tree, statement, &mut buffer);
+    items(&tree.tokens, statement, &mut buffer);
     let Some(raw) = RawHead::read(&buffer, &mut diagnostics) else {
         return Vec::new();
     };
@@ -266,8 +266,8 @@ fn read(text: &str, source: &str, builder: &mut Builder) -> Vec<Diagnostic> {
     let mut diagnostics = Diagnostics::new(&source);
     let mut buffer = Vec::new();
     for statement in &tree.statements {
-        items(&tree, statement, &mut buffer);
-        read_statement(&tree, statement, &buffer, builder, &mut diagnostics);
+        items(&tree.tokens, statement, &mut buffer);
+        read_statement(&tree.tokens, statement, &buffer, builder, &mut diagnostics);
     }
     let mut found = diagnostics.finish();
     found.retain(|diagnostic| diagnostic.severity == Severity::Error);

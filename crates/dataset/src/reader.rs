@@ -9,7 +9,7 @@ use crate::names::{self, Match, Name};
 use crate::reading::{Head, Reading};
 use crate::source::{Source, Span};
 use crate::statements::{Action, Builder, Rule, STATEMENTS, name_freedoms};
-use crate::syntax::{Item, Language, StatementTokens, SyntaxTree, TokenKind, items};
+use crate::syntax::{Grouping, Item, Language, NAMES, StatementTokens, Token, TokenKind, items};
 
 /// Reads a dataset (`.adm`).
 ///
@@ -63,10 +63,23 @@ fn read(
     look_through: fn(&Builder, &mut Diagnostics),
 ) -> (Dataset, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::new(source);
-    let tree = SyntaxTree::new(source, Language::Dataset);
+    let mut grouping = Grouping::new(source, Language::Dataset);
     let mut builder = Builder::default();
-    builder.dataset.title = title(source, &tree, &mut diagnostics);
-    if tree.statements.is_empty() {
+    builder.dataset.title = title(source, grouping.tokens(), &mut diagnostics);
+    builder.dataset.texts = Texts::new(source);
+    let mut buffer = Vec::new();
+    let mut empty = true;
+    while let Some(statement) = grouping.statement() {
+        empty = false;
+        let tokens = grouping.tokens();
+        items(tokens, &statement, &mut buffer);
+        read_statement(tokens, &statement, &buffer, &mut builder, &mut diagnostics);
+        if diagnostics.ends_with(Code::WrongFileType) {
+            return (builder.dataset, diagnostics.finish());
+        }
+        grouping.forget();
+    }
+    if empty {
         diagnostics
             .error(
                 Code::Empty,
@@ -76,15 +89,6 @@ fn read(
             .help("the first line is the title; statements follow it");
         return (builder.dataset, diagnostics.finish());
     }
-    builder.dataset.texts = Texts::new(source);
-    let mut buffer = Vec::new();
-    for statement in &tree.statements {
-        items(&tree, statement, &mut buffer);
-        read_statement(&tree, statement, &buffer, &mut builder, &mut diagnostics);
-        if diagnostics.ends_with(Code::WrongFileType) {
-            return (builder.dataset, diagnostics.finish());
-        }
-    }
     name_freedoms(&mut builder, &mut diagnostics);
     checks::model(&builder, &mut diagnostics);
     look_through(&builder, &mut diagnostics);
@@ -92,12 +96,9 @@ fn read(
 }
 
 /// The first line; a warning where it looks like a statement.
-fn title(source: &Source, tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> String {
-    let Some(token) = tree
-        .tokens
-        .first()
-        .filter(|token| token.kind == TokenKind::Line)
-    else {
+fn title(source: &Source, tokens: &[Token], diagnostics: &mut Diagnostics) -> String {
+    let first = tokens.first();
+    let Some(token) = first.filter(|token| token.kind == TokenKind::Line) else {
         return String::new();
     };
     let text = source.slice(token.span());
@@ -119,7 +120,7 @@ fn title(source: &Source, tree: &SyntaxTree, diagnostics: &mut Diagnostics) -> S
 }
 
 pub(crate) fn read_statement(
-    tree: &SyntaxTree,
+    tokens: &[Token],
     statement: &StatementTokens,
     items: &[Item],
     builder: &mut Builder,
@@ -162,10 +163,10 @@ pub(crate) fn read_statement(
     }
     let head = Head {
         name,
-        span: tree.span(statement),
+        span: statement.span(tokens),
         head: raw.head,
         id,
-        view_name: view_name(tree, statement, diagnostics.source),
+        view_name: view_name(tokens, statement, diagnostics.source),
     };
     let mut reading = Reading::new(head, &items[raw.rest..], keywords, diagnostics);
     for argument in reading.unread() {
@@ -176,12 +177,13 @@ pub(crate) fn read_statement(
 
 /// The name in the last `adams_view_name='...'` comment before a statement.
 pub(crate) fn view_name(
-    tree: &SyntaxTree,
+    tokens: &[Token],
     statement: &StatementTokens,
     source: &Source,
 ) -> Option<String> {
-    let comment = source.slice(tree.tokens[statement.name_comment?].span());
-    let (_, name) = comment.split_once("adams_view_name")?;
+    let comment = source.slice(tokens[statement.name_comment?].span());
+    let start = memchr::memmem::find(comment.as_bytes(), NAMES.as_bytes())?;
+    let name = &comment[start + NAMES.len()..];
     let name = name.trim().strip_prefix('=')?.trim().strip_prefix('\'')?;
     Some(name[..name.rfind('\'')?].to_string())
 }

@@ -26,7 +26,8 @@ pub(crate) fn read(
         statement,
         keywords,
         diagnostics,
-        arguments: Vec::new(),
+        // Most are a comma, a name, `=` and a value.
+        arguments: Vec::with_capacity((items.len() / 4 + 1).min(16)),
     };
     parser.arguments();
     parser.arguments

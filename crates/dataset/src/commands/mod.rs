@@ -85,7 +85,7 @@ pub(crate) fn read_command(
     buffer: &mut Vec<Item>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Command> {
-    items(tree, statement, buffer);
+    items(&tree.tokens, statement, buffer);
     let raw = RawHead::read(buffer, diagnostics)?;
     let only_statements = || {
         let names = STATEMENTS.iter().map(|rule| rule.name);

@@ -104,7 +104,7 @@ impl Reader<'_> {
 
     /// Takes one statement; whether it is STOP.
     fn statement(&mut self, statement: &StatementTokens, buffer: &mut Vec<Item>) -> bool {
-        items(self.tree, statement, buffer);
+        items(&self.tree.tokens, statement, buffer);
         let Some(parts) = Parts::new(buffer, self.language, &mut self.diagnostics) else {
             return false;
         };
@@ -117,7 +117,7 @@ impl Reader<'_> {
         let identified = known.unwrap_or(parts.head.number.is_some());
         let id = parts.head.id(&name, identified, &mut self.diagnostics);
         let view_name = match self.language {
-            Language::Dataset => view_name(self.tree, statement, self.source),
+            Language::Dataset => view_name(&self.tree.tokens, statement, self.source),
             _ => None,
         };
         let named_by = statement.name_comment.filter(|_| view_name.is_some());

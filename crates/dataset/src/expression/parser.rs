@@ -105,6 +105,15 @@ impl Parser<'_> {
 
     /// The next item of the expression; `None` where it ends.
     fn peek(&mut self) -> Option<Item> {
+        let item = self.items.get(self.at)?;
+        match item.kind() {
+            TokenKind::Backslash | TokenKind::Comma => self.peek_at_separator(),
+            _ => Some(*item),
+        }
+    }
+
+    /// [`Parser::peek`] where a comma or backslash is next, which is seldom.
+    fn peek_at_separator(&mut self) -> Option<Item> {
         while let Some(item) = self.items.get(self.at).copied() {
             if item.kind() == TokenKind::Backslash {
                 return None;

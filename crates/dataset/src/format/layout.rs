@@ -171,7 +171,7 @@ impl Layout<'_> {
 
     /// Lays out one statement; whether it is STOP.
     fn statement(&mut self, statement: &StatementTokens, buffer: &mut Vec<Item>) -> bool {
-        items(self.tree, statement, buffer);
+        items(&self.tree.tokens, statement, buffer);
         self.blank_line();
         // All that can be wrong has been found before.
         let parts = Parts::new(buffer, self.language, &mut Diagnostics::new(self.source));

@@ -1,6 +1,6 @@
 //! The tokens of one statement that carry meaning, with continuation marks removed.
 
-use super::{StatementTokens, SyntaxTree, Token, TokenKind};
+use super::{StatementTokens, Token, TokenKind};
 use crate::source::{Source, Span};
 
 /// A token that carries meaning.
@@ -28,10 +28,10 @@ impl Item {
 ///
 /// `&` at the end of a line is left out. So is the comma that starts a continued line where the
 /// line before ends in `,` or `=`: both commas are one separator.
-pub(crate) fn items(tree: &SyntaxTree, statement: &StatementTokens, items: &mut Vec<Item>) {
+pub(crate) fn items(tokens: &[Token], statement: &StatementTokens, items: &mut Vec<Item>) {
     items.clear();
     let mut new_line = false;
-    for token in &tree.tokens[statement.tokens.clone()] {
+    for token in &tokens[statement.tokens.clone()] {
         match token.kind {
             TokenKind::Newline => {
                 new_line = true;

@@ -1,8 +1,10 @@
 //! The faithful tree of a text: tokens, and statements as ranges of tokens.
 
+mod grouping;
 mod items;
 mod token;
 
+pub(crate) use grouping::{Grouping, NAMES};
 pub(crate) use items::{Item, items, join};
 pub use token::{Language, Token, TokenKind};
 pub(crate) use token::{number_value, with_exponent};
@@ -17,6 +19,17 @@ pub struct StatementTokens {
     pub tokens: Range<usize>,
     /// The last `adams_view_name='...'` comment between the statement before and this one.
     pub name_comment: Option<usize>,
+}
+
+impl StatementTokens {
+    /// The place of the statement among the tokens that it was made of.
+    pub(crate) fn span(&self, tokens: &[Token]) -> Span {
+        let tokens = &tokens[self.tokens.clone()];
+        match (tokens.first(), tokens.last()) {
+            (Some(first), Some(last)) => first.span().to(last.span()),
+            _ => Span::default(),
+        }
+    }
 }
 
 /// The tokens of a text and how they make statements.
@@ -43,10 +56,14 @@ impl SyntaxTree {
     /// The tree of a text; it cannot fail.
     #[must_use]
     pub fn new(source: &Source, language: Language) -> Self {
-        let tokens = token::tokens(source, language);
-        let (statements, end) = statements(source, &tokens, language);
+        let mut grouping = Grouping::new(source, language);
+        let mut statements = Vec::new();
+        while let Some(statement) = grouping.statement() {
+            statements.push(statement);
+        }
+        let end = grouping.end();
         Self {
-            tokens,
+            tokens: grouping.into_tokens(),
             statements,
             end,
         }
@@ -55,86 +72,6 @@ impl SyntaxTree {
     /// The place of a statement, from its name to its last argument.
     #[must_use]
     pub fn span(&self, statement: &StatementTokens) -> Span {
-        let tokens = &self.tokens[statement.tokens.clone()];
-        match (tokens.first(), tokens.last()) {
-            (Some(first), Some(last)) => first.span().to(last.span()),
-            _ => Span::default(),
-        }
+        statement.span(&self.tokens)
     }
-}
-
-/// What a comment holds that names the statement behind it.
-const NAMES: &str = "adams_view_name";
-
-/// A statement ends at `;`, or at the end of a line unless that line ends in `&` or `,` or the
-/// next line that is neither blank nor comment starts with `,`.
-///
-/// Gives the statements and the position of END.
-fn statements(
-    source: &Source,
-    tokens: &[Token],
-    language: Language,
-) -> (Vec<StatementTokens>, Option<usize>) {
-    let finder = memchr::memmem::Finder::new(NAMES);
-    let mut statements = Vec::new();
-    let mut name_comment = None;
-    let mut current: Option<StatementTokens> = None;
-    let mut line_ended = false;
-    let mut last_kind = TokenKind::Newline;
-    for (index, token) in tokens.iter().enumerate() {
-        match token.kind {
-            TokenKind::Line | TokenKind::Whitespace => continue,
-            TokenKind::Comment => {
-                let comment = source.slice(token.span()).as_bytes();
-                if comment.len() > NAMES.len() && finder.find(comment).is_some() {
-                    name_comment = Some(index);
-                }
-                continue;
-            }
-            TokenKind::Newline => {
-                line_ended |= !matches!(last_kind, TokenKind::Ampersand | TokenKind::Comma);
-                continue;
-            }
-            TokenKind::Semicolon => {
-                statements.extend(current.take());
-                line_ended = false;
-                last_kind = token.kind;
-                continue;
-            }
-            _ => {}
-        }
-        if line_ended && token.kind != TokenKind::Comma {
-            statements.extend(current.take());
-        }
-        line_ended = false;
-        last_kind = token.kind;
-        if current.is_none() && token.kind == TokenKind::Ampersand && ends_line(tokens, index) {
-            // It continues nothing.
-            continue;
-        }
-        match &mut current {
-            Some(statement) => statement.tokens.end = index + 1,
-            None => {
-                let is_end = source.slice(token.span()).eq_ignore_ascii_case("END");
-                if language == Language::Dataset && is_end {
-                    return (statements, Some(index));
-                }
-                current = Some(StatementTokens {
-                    tokens: index..index + 1,
-                    name_comment: name_comment.take(),
-                });
-            }
-        }
-    }
-    statements.extend(current);
-    (statements, None)
-}
-
-/// Whether nothing but a comment follows a token on its line.
-fn ends_line(tokens: &[Token], index: usize) -> bool {
-    let behind = &tokens[index + 1..];
-    let next = behind
-        .iter()
-        .find(|token| !matches!(token.kind, TokenKind::Whitespace | TokenKind::Comment));
-    next.is_none_or(|token| token.kind == TokenKind::Newline)
 }

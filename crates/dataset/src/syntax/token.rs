@@ -1,6 +1,6 @@
 //! Text to tokens. Nothing is lost: the tokens, trivia included, cover the text without gaps.
 
-use crate::source::{Source, Span};
+use crate::source::Span;
 
 /// The type of a [`Token`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,41 +92,39 @@ pub enum Language {
     Statements,
 }
 
-/// Splits the text of a source into tokens.
-pub(super) fn tokens(source: &Source, language: Language) -> Vec<Token> {
-    let text = source.text();
-    let mut lexer = Lexer {
-        bytes: text.as_bytes(),
-        at: 0,
-        tokens: Vec::with_capacity(text.len() / 4),
-    };
-    match language {
-        Language::Dataset => lexer.line(),
-        Language::Commands => {
-            for _ in 0..2 {
-                if lexer.at_plain_line() {
-                    lexer.line();
-                    lexer.newline();
-                } else {
-                    break;
-                }
-            }
-        }
-        Language::Statements => {}
-    }
-    while lexer.at < lexer.bytes.len() {
-        lexer.next();
-    }
-    lexer.tokens
-}
-
-struct Lexer<'a> {
+/// Splits a text into tokens.
+pub(super) struct Lexer<'a> {
     bytes: &'a [u8],
     at: usize,
-    tokens: Vec<Token>,
+    /// The tokens so far.
+    pub(super) tokens: Vec<Token>,
 }
 
-impl Lexer<'_> {
+impl<'a> Lexer<'a> {
+    /// Starts at the top of a text, with the tokens of the lines that are taken as they are.
+    pub(super) fn new(text: &'a str, language: Language) -> Self {
+        let mut lexer = Self {
+            bytes: text.as_bytes(),
+            at: 0,
+            tokens: Vec::new(),
+        };
+        match language {
+            Language::Dataset => lexer.line(),
+            Language::Commands => {
+                for _ in 0..2 {
+                    if lexer.at_plain_line() {
+                        lexer.line();
+                        lexer.advance();
+                    } else {
+                        break;
+                    }
+                }
+            }
+            Language::Statements => {}
+        }
+        lexer
+    }
+
     fn peek(&self, ahead: usize) -> u8 {
         self.bytes.get(self.at + ahead).copied().unwrap_or(0)
     }
@@ -168,12 +166,6 @@ impl Lexer<'_> {
         }
     }
 
-    fn newline(&mut self) {
-        if self.at < self.bytes.len() {
-            self.next();
-        }
-    }
-
     /// Whether the line is neither blank nor a comment nor a command.
     fn at_plain_line(&self) -> bool {
         let line = self.bytes[self.at..self.line_end()].trim_ascii();
@@ -181,8 +173,20 @@ impl Lexer<'_> {
         !(line.is_empty() || line[0] == b'!' || line.contains(&b'/') || is_stop)
     }
 
-    fn next(&mut self) {
-        let first = self.bytes[self.at];
+    /// Adds the tokens up to the end of the line, the line end too; returns whether there are any.
+    pub(super) fn advance(&mut self) -> bool {
+        let before = self.at;
+        while let Some(first) = self.bytes.get(self.at) {
+            self.next(*first);
+            if self.tokens.last().map(|token| token.kind) == Some(TokenKind::Newline) {
+                break;
+            }
+        }
+        self.at > before
+    }
+
+    /// Adds the token that starts with the byte `first`.
+    fn next(&mut self, first: u8) {
         let one = self.at + 1;
         match first {
             byte if is_blank(byte) => self.push(TokenKind::Whitespace, self.run(one, is_blank)),
