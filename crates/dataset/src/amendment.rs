@@ -8,15 +8,17 @@ use crate::change::{change, fixed, something};
 use crate::checks;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::keywords::{Keyword, Kind, keyword};
-use crate::model::{Amendment, Change, ChangeKind, CommandKind, Dataset, Element, Elements};
+use crate::model::{
+    AmendedArgument, Amendment, Change, ChangeKind, CommandKind, Dataset, Element, Elements,
+};
 use crate::reader::{RawHead, read_statement};
 use crate::reading::Reading;
-use crate::source::Source;
+use crate::source::{Source, Span};
 use crate::statements::{Action, Builder, STATEMENTS};
 use crate::syntax::{Item, Language, SyntaxTree, items, join};
 
 /// The statements that commands can amend, and the arguments that stay as they are: what the element
-/// connects, and what it starts from.
+/// connects, and what it starts from. Of the others commands only print the statement.
 const FIXED: &[(&str, &[&str])] = &[
     ("BEAM", &["I", "J"]),
     ("BUSHING", &["I", "J"]),
@@ -24,6 +26,7 @@ const FIXED: &[(&str, &[&str])] = &[
     ("DIFF", &["IC", "IMPLICIT"]),
     ("FIELD", &["I", "J"]),
     ("GCON", &["I"]),
+    ("GFORCE", &["I", "JFLOAT", "RM"]),
     (
         "MOTION",
         &[
@@ -52,8 +55,15 @@ const FIXED: &[(&str, &[&str])] = &[
         &["CM", "QG", "REULER", "XG", "ZG", "VX", "VY", "VZ", "EXACT"],
     ),
     ("SENSOR", &[]),
+    (
+        "SFORCE",
+        &["TRANSLATIONAL", "ROTATIONAL", "I", "J", "ACTIONONLY"],
+    ),
     ("SPLINE", &["FILE"]),
     ("SPRINGDAMPER", &["I", "J", "TRANSLATIONAL", "ROTATIONAL"]),
+    ("VARIABLE", &[]),
+    ("VFORCE", &["I", "JFLOAT", "RM"]),
+    ("VTORQUE", &["I", "JFLOAT", "RM"]),
 ];
 
 /// Arguments that a new one takes the place of.
@@ -81,16 +91,17 @@ pub(crate) fn with_list(keywords: &[Keyword]) -> Vec<Keyword> {
     all
 }
 
-/// Whether a command can amend a statement.
-pub(crate) fn can_amend(statement: &str) -> bool {
-    FIXED.iter().any(|(name, _)| *name == statement)
-}
-
 /// A statement as a command.
 pub(crate) fn amend(reading: &mut Reading, keywords: &[Keyword]) -> Option<CommandKind> {
     let name = reading.name;
-    let (_, kept) = FIXED.iter().find(|(statement, _)| *statement == name)?;
-    fixed(reading, kept);
+    match FIXED.iter().find(|(statement, _)| *statement == name) {
+        Some((_, kept)) => fixed(reading, kept),
+        None => {
+            let all: Vec<_> = keywords.iter().map(|keyword| keyword.name.full).collect();
+            let all: Vec<_> = all.into_iter().filter(|name| *name != LIST).collect();
+            fixed(reading, &all);
+        }
+    }
     something(reading);
     let source = reading.diagnostics.source;
     let arguments = reading.arguments().iter();
@@ -98,10 +109,11 @@ pub(crate) fn amend(reading: &mut Reading, keywords: &[Keyword]) -> Option<Comma
         .filter(|argument| argument.keyword != LIST)
         .map(|argument| {
             let items = &reading.items[argument.items.clone()];
-            (
-                argument.keyword,
-                text(source, items, argument.keyword, keywords),
-            )
+            AmendedArgument {
+                keyword: argument.keyword,
+                text: text(source, items, argument.keyword, keywords),
+                span: argument.span.to(span_of(items).unwrap_or(argument.span)),
+            }
         });
     let amendment = Amendment {
         statement: name,
@@ -110,6 +122,12 @@ pub(crate) fn amend(reading: &mut Reading, keywords: &[Keyword]) -> Option<Comma
         list: reading.has(LIST),
     };
     Some(change(reading, ChangeKind::Amendment(amendment)))
+}
+
+/// From the first item to the last.
+fn span_of(items: &[Item]) -> Option<Span> {
+    let (first, last) = (items.first()?, items.last()?);
+    Some(first.span().to(last.span()))
 }
 
 /// An argument on one line; an expression with the mark of its end.
@@ -166,7 +184,7 @@ impl Dataset {
         if amendment.arguments.is_empty() {
             return Some(());
         }
-        let given = |keyword: &str| amendment.arguments.iter().any(|(k, _)| *k == keyword);
+        let given = |keyword: &str| amendment.arguments.iter().any(|a| a.keyword == keyword);
         let replaced = |keyword: &str| {
             let others = REPLACED.iter().filter(|(new, _)| given(new));
             given(keyword) || others.into_iter().any(|(_, old)| old.contains(&keyword))
@@ -174,17 +192,29 @@ impl Dataset {
         let mut text = format!("{name}/{id}");
         let kept = arguments_of(&before, keywords);
         let kept = kept.iter().filter(|(keyword, _)| !replaced(keyword));
-        for (_, argument) in kept.chain(&amendment.arguments) {
+        for (_, argument) in kept {
             text += &format!("\n, {argument}");
         }
-        let mut report = |found: Diagnostic| {
-            let error = diagnostics.error(found.code, change.span, found.message);
-            error.help = found.help;
+        // Where each new argument ends in the text.
+        let mut ends = Vec::with_capacity(amendment.arguments.len());
+        let own = text.len();
+        for argument in &amendment.arguments {
+            text += &format!("\n, {}", argument.text);
+            ends.push(text.len());
+        }
+        // What is wrong with the text stands at the argument of the command that it is about.
+        let place = |span: Span| {
+            let argument = ends.partition_point(|end| *end <= span.start);
+            let argument = amendment.arguments.get(argument);
+            argument
+                .filter(|_| span.start >= own)
+                .map_or(change.span, |argument| argument.span)
         };
         let mut builder = Builder::default();
         let wrong = read(&text, &change.source, &mut builder);
         if let Some(found) = wrong.into_iter().next() {
-            report(found);
+            let error = diagnostics.error(found.code, place(found.span), found.message);
+            error.help = found.help;
             return Some(());
         }
         let missing = builder
@@ -194,7 +224,7 @@ impl Dataset {
         if let Some(reference) = missing {
             let (name, id) = (reference.target.statement(), reference.id);
             let message = format!("there is no {name}/{id}");
-            diagnostics.error(Code::MissingElement, change.span, message);
+            diagnostics.error(Code::MissingElement, place(reference.span), message);
             return Some(());
         }
         self.exchange(name, id, &mut builder.dataset)?;
@@ -203,32 +233,19 @@ impl Dataset {
         checks::elements(self, &mut checked);
         let wrong = checked.finish().into_iter();
         if let Some(found) = wrong.into_iter().find(|d| d.severity == Severity::Error) {
-            report(found);
+            let error = diagnostics.error(found.code, place(found.span), found.message);
+            error.help = found.help;
             return self.exchange(name, id, &mut builder.dataset);
         }
         self.texts.amend(name, id, text);
         Some(())
     }
 
-    /// The text of the statement of an element that commands can change, as it was changed last;
-    /// `None` where there is no such element.
+    /// The text of the statement of an element, as commands have changed it last; `None` where there
+    /// is no such element.
     #[must_use]
     pub fn text_of(&self, statement: &'static str, id: u32) -> Option<String> {
-        let header = match statement {
-            "BEAM" => self.beams.by_id(id)?.header(),
-            "BUSHING" => self.bushings.by_id(id)?.header(),
-            "COUPLER" => self.couplers.by_id(id)?.header(),
-            "DIFF" => self.differentials.by_id(id)?.header(),
-            "FIELD" => self.fields.by_id(id)?.header(),
-            "GCON" => self.constraints.by_id(id)?.header(),
-            "MOTION" => self.motions.by_id(id)?.header(),
-            "PART" => self.parts.by_id(id)?.header(),
-            "POINT_MASS" => self.point_masses.by_id(id)?.header(),
-            "SENSOR" => self.sensors.by_id(id)?.header(),
-            "SPLINE" => self.splines.by_id(id)?.header(),
-            "SPRINGDAMPER" => self.spring_dampers.by_id(id)?.header(),
-            _ => return None,
-        };
+        let header = self.header(statement, id)?;
         self.texts.of(statement, id, header.span)
     }
 
@@ -240,6 +257,11 @@ impl Dataset {
             "COUPLER" => exchange(&mut self.couplers, &mut other.couplers, id),
             "DIFF" => exchange(&mut self.differentials, &mut other.differentials, id),
             "FIELD" => exchange(&mut self.fields, &mut other.fields, id),
+            "GFORCE" => exchange(&mut self.general_forces, &mut other.general_forces, id),
+            "SFORCE" => exchange(&mut self.single_forces, &mut other.single_forces, id),
+            "VARIABLE" => exchange(&mut self.variables, &mut other.variables, id),
+            "VFORCE" => exchange(&mut self.vector_forces, &mut other.vector_forces, id),
+            "VTORQUE" => exchange(&mut self.vector_torques, &mut other.vector_torques, id),
             "GCON" => exchange(&mut self.constraints, &mut other.constraints, id),
             "MOTION" => exchange(&mut self.motions, &mut other.motions, id),
             "PART" => exchange(&mut self.parts, &mut other.parts, id),

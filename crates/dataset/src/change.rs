@@ -1,14 +1,12 @@
 //! Commands that change the model, and what they do to a [`Dataset`].
 
 pub(crate) use crate::statements::{
-    EQUILIBRIUM_KEYWORDS, GFORCE_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS,
-    PREFERENCES_KEYWORDS, SFORCE_KEYWORDS, VARIABLE_KEYWORDS, VFORCE_KEYWORDS, VTORQUE_KEYWORDS,
+    EQUILIBRIUM_KEYWORDS, GRAVITY_KEYWORDS, INTEGRATOR_KEYWORDS, PREFERENCES_KEYWORDS,
 };
 
 use crate::checks;
 use crate::commands::read_command;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::expression::Expression;
 use crate::keywords::{Keyword, Kind, keyword};
 use crate::model::{
     Activity, Change, ChangeKind, CommandKind, Dataset, Equilibrium, Friction, FrictionArguments,
@@ -89,61 +87,9 @@ pub(crate) fn something(reading: &mut Reading) {
         let message = format!("{} gives nothing to change", reading.label());
         reading
             .diagnostics
-            .error(Code::MissingArgument, reading.head, message);
+            .error(Code::MissingArgument, reading.head, message)
+            .help("add the arguments that change, with their new values");
     }
-}
-
-/// VARIABLE as a command.
-pub(crate) fn variable(reading: &mut Reading) -> Option<CommandKind> {
-    if !reading.has("IC") {
-        reading.require("FUNCTION");
-    }
-    let kind = ChangeKind::Variable {
-        id: reading.id,
-        ic: reading.real("IC"),
-        function: reading.expression("FUNCTION"),
-    };
-    Some(change(reading, kind))
-}
-
-/// SFORCE as a command.
-pub(crate) fn single_force(reading: &mut Reading) -> Option<CommandKind> {
-    fixed(
-        reading,
-        &["TRANSLATIONAL", "ROTATIONAL", "I", "J", "ACTIONONLY"],
-    );
-    let kind = ChangeKind::SingleForce {
-        id: reading.id,
-        function: reading.required_expression("FUNCTION"),
-    };
-    Some(change(reading, kind))
-}
-
-/// VFORCE as a command.
-pub(crate) fn vector_force(reading: &mut Reading) -> Option<CommandKind> {
-    Some(components(reading, Switchable::VectorForce))
-}
-
-/// VTORQUE as a command.
-pub(crate) fn vector_torque(reading: &mut Reading) -> Option<CommandKind> {
-    Some(components(reading, Switchable::VectorTorque))
-}
-
-/// GFORCE as a command.
-pub(crate) fn general_force(reading: &mut Reading) -> Option<CommandKind> {
-    Some(components(reading, Switchable::GeneralForce))
-}
-
-/// New functions of components.
-fn components(reading: &mut Reading, kind: Switchable) -> CommandKind {
-    fixed(reading, &["I", "JFLOAT", "RM"]);
-    something(reading);
-    let kind = ChangeKind::VectorForce {
-        kind,
-        id: reading.id,
-        components: Box::new(statements::components(reading)),
-    };
-    change(reading, kind)
 }
 
 /// The arguments of FRICTION as a command: those of the statement and LIST.
@@ -284,40 +230,6 @@ impl Dataset {
     /// Makes a change if nothing is wrong with it; `None` if its element does not exist.
     fn change(&mut self, change: &Change, diagnostics: &mut Diagnostics) -> Option<()> {
         match &change.kind {
-            ChangeKind::Variable { id, ic, function } => {
-                self.variables.position(*id)?;
-                if let Some(function) = function {
-                    if !checks::expression(self, function, diagnostics) {
-                        return Some(());
-                    }
-                    let variable = self.variables.by_id_mut(*id)?;
-                    variable.function.clone_from(function);
-                }
-                let variable = self.variables.by_id_mut(*id)?;
-                variable.ic = ic.or(variable.ic);
-            }
-            ChangeKind::SingleForce { id, function } => {
-                self.single_forces.position(*id)?;
-                if checks::expression(self, function, diagnostics) {
-                    self.single_forces.by_id_mut(*id)?.function = function.clone();
-                }
-            }
-            ChangeKind::VectorForce {
-                kind,
-                id,
-                components,
-            } => {
-                self.components_mut(*kind, *id)?;
-                let mut given = components.iter().flatten();
-                if given.all(|function| checks::expression(self, function, diagnostics)) {
-                    let old = self.components_mut(*kind, *id)?;
-                    for (old, new) in old.iter_mut().zip(components.iter()) {
-                        if new.is_some() {
-                            old.clone_from(new);
-                        }
-                    }
-                }
-            }
             ChangeKind::Amendment(amendment) => self.amend(amendment, change, diagnostics)?,
             ChangeKind::Friction { id, arguments, .. } => {
                 let friction = self.frictions.by_id_mut(*id)?;
@@ -346,21 +258,6 @@ impl Dataset {
             }
         }
         Some(())
-    }
-
-    /// The components of a VFORCE, VTORQUE or GFORCE.
-    fn components_mut(
-        &mut self,
-        kind: Switchable,
-        id: u32,
-    ) -> Option<&mut [Option<Expression>; 6]> {
-        let list = match kind {
-            Switchable::VectorForce => &mut self.vector_forces,
-            Switchable::VectorTorque => &mut self.vector_torques,
-            Switchable::GeneralForce => &mut self.general_forces,
-            _ => return None,
-        };
-        list.by_id_mut(id).map(|force| &mut force.components)
     }
 }
 
@@ -395,9 +292,6 @@ impl Change {
     #[must_use]
     pub const fn target(&self) -> (&'static str, u32) {
         match self.kind {
-            ChangeKind::Variable { id, .. } => ("VARIABLE", id),
-            ChangeKind::SingleForce { id, .. } => ("SFORCE", id),
-            ChangeKind::VectorForce { kind, id, .. } => (kind.statement(), id),
             ChangeKind::Amendment(ref amendment) => (amendment.statement, amendment.id),
             ChangeKind::Friction { id, .. } => ("FRICTION", id),
             ChangeKind::Integrator(_) => ("INTEGRATOR", 0),

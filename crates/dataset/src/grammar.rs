@@ -31,8 +31,10 @@ pub(crate) struct Grammar {
 /// The statement or command that `word`, perhaps an abbreviation, names; `None` where it names
 /// none or several.
 pub(crate) fn grammar(language: Language, word: &str) -> Option<Grammar> {
-    if language != Language::Dataset {
-        return commands::grammar(word);
+    if language != Language::Dataset
+        && let Some(found) = commands::grammar(word)
+    {
+        return Some(found);
     }
     let Match::One(index) = names::find(word, STATEMENTS.iter().map(|rule| rule.name)) else {
         return None;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use dataset::{
-    Change, Code, Command, CommandKind, Dataset, Diagnostic, Severity, Simulate, SimulationKind,
-    Source, Span,
+    Change, ChangeKind, Code, Command, CommandKind, Dataset, Diagnostic, Severity, Simulate,
+    SimulationKind, Source, Span,
 };
 
 use crate::levels::Levels;
@@ -215,10 +215,9 @@ impl Project {
         let mut dataset = self.dataset.clone();
         let mut changed = None;
         let mut time = 0.0;
-        let acting = |dataset: &Dataset| {
-            let acting = refusal::acting(dataset, source.name()).into_iter();
-            acting.map(|diagnostic| Message::new(diagnostic, source))
-        };
+        let acting = |dataset: &Dataset| refusal::acting(dataset, source.name());
+        // The command that has brought such an element back.
+        let mut back = None;
         // What is not simulated is told once.
         let mut told = false;
         for step in &self.commands {
@@ -233,14 +232,26 @@ impl Project {
                     messages.extend(self.at_command(lowered.err(), changed));
                 }
                 if !told {
-                    let before = messages.len();
-                    messages.extend(acting(&dataset));
-                    told = messages.len() > before;
+                    let mut found = acting(&dataset);
+                    told = found.is_some();
+                    if let Some(step) = back {
+                        if let Some(error) = &mut found {
+                            error.help("leave it out of this command, or take it out of the model");
+                        }
+                        messages.extend(self.at_command(found.map(|error| vec![error]), step));
+                    } else {
+                        messages.extend(found.map(|error| Message::new(error, source)));
+                    }
                 }
             }
             match kind {
                 CommandKind::Change(change) => {
+                    let switches = matches!(change.kind, ChangeKind::Activity(_));
+                    let rested = switches && acting(&dataset).is_none();
                     messages.extend(self.change(&mut dataset, change, step.source));
+                    if rested && acting(&dataset).is_some() {
+                        back = Some(step);
+                    }
                     changed = Some(step);
                 }
                 CommandKind::Simulate(simulate) => match settings::span(simulate, time) {
@@ -261,7 +272,7 @@ impl Project {
             }
         }
         if self.commands.is_empty() {
-            messages.extend(acting(&dataset));
+            messages.extend(acting(&dataset).map(|error| Message::new(error, source)));
         }
         let messages = self.levels.judge_all(messages);
         if messages.iter().any(Message::is_error) {

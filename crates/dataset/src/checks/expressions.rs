@@ -88,25 +88,9 @@ pub(crate) fn named_markers(dataset: &Dataset, mark: &mut impl FnMut(u32)) {
     }
 }
 
-/// Checks one expression of an element that moves the model; returns whether nothing is wrong.
-pub(crate) fn check(
-    dataset: &Dataset,
-    expression: &Expression,
-    diagnostics: &mut Diagnostics,
-) -> bool {
-    let mut missing = Vec::new();
-    find_missing(dataset, expression, &mut missing);
-    let complete = missing.is_empty();
-    report(dataset, missing, diagnostics);
-    let placed = floating(dataset, expression, diagnostics);
-    friction(expression, Place::Motion, diagnostics) && complete && placed
-}
-
-/// Reports floating markers in functions other than those of the forces that act on them; returns
-/// whether there are none.
-fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagnostics) -> bool {
+/// Reports floating markers in functions other than those of the forces that act on them.
+fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagnostics) {
     use Function as F;
-    let mut right = true;
     expression.root.visit(&mut |node| {
         let Expr::Call {
             function,
@@ -129,18 +113,14 @@ fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagno
             let marker = id.and_then(|id| dataset.markers.by_id(id));
             let end = of_forces && position < 2;
             if let Some(marker) = marker.filter(|marker| marker.floating && !end) {
-                right = false;
                 references::report_floating(marker.header.id, *span, diagnostics);
             }
         }
     });
-    right
 }
 
-/// Checks the calls of `FRICTION(id, index)`, of which only outputs may read all; returns whether
-/// nothing is wrong.
-fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics) -> bool {
-    let mut right = true;
+/// Checks the calls of `FRICTION(id, index)`, of which only outputs may read all.
+fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics) {
     expression.root.visit(&mut |node| {
         let Expr::Call {
             function: Function::Friction,
@@ -152,21 +132,18 @@ fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics
         };
         let index = arguments.get(1).and_then(Expr::as_id).unwrap_or(0);
         if !(1..=26).contains(&index) {
-            right = false;
             let message = "the index of FRICTION goes from 1 to 26";
             diagnostics.error(Code::OutOfRange, *span, message).help(
                 "1-6 force and torque, 7-13 coefficients, 14-19 velocity, 20-25 creep, 26 BETA",
             );
         }
         if place == Place::Motion && index > 6 {
-            right = false;
             let message = "FRICTION of an index from 7 on can be read by a REQUEST or SENSOR only";
             diagnostics
                 .error(Code::UnsupportedFunction, *span, message)
                 .help("the force and torque, 1 to 6, can be read everywhere");
         }
     });
-    right
 }
 
 /// A call that names something that does not exist: what, and the identifier.

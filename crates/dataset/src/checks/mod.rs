@@ -9,7 +9,7 @@ pub(crate) mod inertia;
 mod linear_systems;
 pub(crate) mod references;
 
-pub(crate) use expressions::{check as expression, named_markers};
+pub(crate) use expressions::named_markers;
 pub(crate) use friction::unused_arguments;
 
 use crate::diagnostic::{Code, Diagnostics};

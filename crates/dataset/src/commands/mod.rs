@@ -98,7 +98,7 @@ pub(crate) fn read_command(
         let name = only_statements().nth(index - COMMANDS.len())?.full;
         let rule = STATEMENTS.iter().find(|rule| rule.name.full == name)?;
         let keywords = match rule.action {
-            statements::Action::Read(Some(keywords), _) if amendment::can_amend(name) => keywords,
+            statements::Action::Read(Some(keywords), _) if rule.identified => keywords,
             _ => {
                 let message = format!("stiction cannot change {name} by a command");
                 diagnostics
@@ -252,41 +252,6 @@ const COMMANDS: &[Rule] = &[
     read("SIMULATE", "SIM", false, SIMULATE_KEYWORDS, simulate),
     read("LINEAR", "LIN", false, linear::KEYWORDS, linear::linear),
     read("STOP", "STOP", false, &[], |_| Some(CommandKind::Stop)),
-    read(
-        "VARIABLE",
-        "VAR",
-        true,
-        change::VARIABLE_KEYWORDS,
-        change::variable,
-    ),
-    read(
-        "SFORCE",
-        "SF",
-        true,
-        change::SFORCE_KEYWORDS,
-        change::single_force,
-    ),
-    read(
-        "VFORCE",
-        "VF",
-        true,
-        change::VFORCE_KEYWORDS,
-        change::vector_force,
-    ),
-    read(
-        "VTORQUE",
-        "VT",
-        true,
-        change::VTORQUE_KEYWORDS,
-        change::vector_torque,
-    ),
-    read(
-        "GFORCE",
-        "GF",
-        true,
-        change::GFORCE_KEYWORDS,
-        change::general_force,
-    ),
     read(
         "FRICTION",
         "FRI",

@@ -2,9 +2,8 @@
 
 use super::{
     Activity, Effect, Equilibrium, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta,
-    Preferences, Switchable,
+    Preferences,
 };
-use crate::expression::Expression;
 use crate::source::Span;
 
 /// A command file, or the commands of one.
@@ -124,31 +123,6 @@ pub struct Change {
 /// What a [`Change`] changes. `None` leaves a value as it is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ChangeKind {
-    /// VARIABLE.
-    Variable {
-        /// Identifier.
-        id: u32,
-        /// IC.
-        ic: Option<f64>,
-        /// FUNCTION.
-        function: Option<Expression>,
-    },
-    /// SFORCE.
-    SingleForce {
-        /// Identifier.
-        id: u32,
-        /// FUNCTION.
-        function: Expression,
-    },
-    /// VFORCE, VTORQUE or GFORCE.
-    VectorForce {
-        /// Which of the three.
-        kind: Switchable,
-        /// Identifier.
-        id: u32,
-        /// FX, FY, FZ, TX, TY and TZ; `None` leaves one as it is.
-        components: Box<[Option<Expression>; 6]>,
-    },
     /// A statement that is read again with other arguments.
     Amendment(Amendment),
     /// FRICTION.
@@ -179,10 +153,21 @@ pub struct Amendment {
     pub statement: &'static str,
     /// Identifier.
     pub id: u32,
-    /// Names of arguments, and the arguments as they are written.
-    pub arguments: Vec<(&'static str, String)>,
+    /// The arguments given.
+    pub arguments: Vec<AmendedArgument>,
     /// LIST: the statement, after the change, is to be printed.
     pub list: bool,
+}
+
+/// An argument of an [`Amendment`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AmendedArgument {
+    /// Its name.
+    pub keyword: &'static str,
+    /// The argument as it is written, name and value.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
 }
 
 /// The arguments given to a FRICTION, as a statement or as a command, with their places.

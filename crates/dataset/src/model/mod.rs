@@ -15,6 +15,7 @@ mod elastic;
 mod elements;
 mod force;
 mod friction;
+mod headers;
 mod joint;
 mod linear_system;
 mod motion;
@@ -31,8 +32,8 @@ mod vector_force;
 pub use activity::{Activity, Selection, Switchable};
 pub use array::{Array, ArrayKind, Matrix, Text};
 pub use commands::{
-    Amendment, Change, ChangeKind, Command, CommandFile, CommandKind, Eigensolution,
-    FrictionArguments, Simulate, SimulationKind,
+    AmendedArgument, Amendment, Change, ChangeKind, Command, CommandFile, CommandKind,
+    Eigensolution, FrictionArguments, Simulate, SimulationKind,
 };
 pub use contact::{Contact, ContactFriction, ContactLaw};
 pub use coupler::{CoupledFreedom, Coupler, Gear};

@@ -21,7 +21,6 @@ mod units;
 mod variable;
 mod vector_force;
 
-pub(crate) use force::SINGLE_KEYWORDS as SFORCE_KEYWORDS;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
 pub(crate) use friction::arguments as friction_arguments;
 pub(crate) use motion::name_freedoms;
@@ -31,11 +30,6 @@ pub(crate) use settings::{
 };
 pub(crate) use table::{Action, Rule, STATEMENTS};
 pub(crate) use units::{GRAVITY_KEYWORDS, gravity};
-pub(crate) use variable::KEYWORDS as VARIABLE_KEYWORDS;
-pub(crate) use vector_force::{
-    FORCE_KEYWORDS as VFORCE_KEYWORDS, GENERAL_KEYWORDS as GFORCE_KEYWORDS,
-    TORQUE_KEYWORDS as VTORQUE_KEYWORDS, components,
-};
 
 use crate::diagnostic::{Code, Diagnostics};
 use crate::model::{Dataset, Element, Elements, FrictionArguments};

@@ -288,7 +288,7 @@ fn simulations_are_read() {
     );
     assert!(matches!(
         &change.kind,
-        CommandKind::Change(change) if matches!(change.kind, ChangeKind::Variable { id: 1, .. })
+        CommandKind::Change(change) if change.target() == ("VARIABLE", 1)
     ));
     assert_eq!(file.commands[7].kind, CommandKind::Stop);
     assert_eq!(file.commands.len(), 8);
@@ -311,6 +311,11 @@ SPLINE/6, X=0, 1, 2, 3, Y=0, 1, 4, 9
 SPRINGDAMPER/7, I=20, J=1, ROTATIONAL, KT=3, CT=0, ANGLE=10D
 SENSOR/8, GE, VALUE=1, ERROR=0.1, FUNCTION=TIME\\, RETURN
 GCON/9, FUNCTION=DX(20, 1)
+VARIABLE/10, IC=3, FUNCTION=TIME
+SFORCE/11, TRANSLATIONAL, I=20, J=1, FUNCTION=TIME
+MARKER/12, PART=1, FLOATING
+VFORCE/13, I=20, JFLOAT=12, RM=1, FX=1, FY=2
+, FZ=TIME
 ";
 
 #[test]
@@ -333,6 +338,9 @@ fn statements_are_read_again_with_the_arguments_of_commands() {
         "SENSOR/8, LE, VALUE=3",
         "GCON/9, FUNCTION=DY(20, 1)",
         "PART/2, MASS=5",
+        "VARIABLE/10, FUNCTION=2*TIME",
+        "SFORCE/11, FUNC=3",
+        "VFORCE/13, FY=7",
         "POINT_MASS/1, MASS=5",
     ] {
         let expected = change
@@ -360,15 +368,30 @@ fn statements_are_read_again_with_the_arguments_of_commands() {
     assert_eq!(model.parts[1].mass, Some(5.0));
     assert_ne!(model.sensors, before.sensors);
     assert_ne!(model.splines, before.splines);
+    let variable = &model.variables[0];
+    assert_eq!(
+        (variable.ic, &*variable.function.text),
+        (Some(3.0), "2*TIME")
+    );
+    assert_eq!(model.single_forces[0].function.text, "3");
+    let components = model.vector_forces[0].components.iter().flatten();
+    let components: Vec<&str> = components.map(|function| &*function.text).collect();
+    assert_eq!(components, ["1", "7", "TIME"]);
+    assert_eq!(
+        model.text_of("MARKER", 20).as_deref(),
+        Some("MARKER/20, PART=2")
+    );
     // What is wrong leaves everything as it is.
     for (change, expected) in [
         ("BUSHING/4, K=1, 1, 1", "there is no BUSHING/4"),
         ("MOTION/1, FUNCTION=DX(99)", "there is no MARKER/99"),
         ("PART/2, MASS=-1", "MASS must be 0 or greater"),
+        ("SFORCE/11, FUNCTION=DX(20, 99)", "there is no MARKER/99"),
+        ("VFORCE/13, I=1", "a command cannot change I of VFORCE/13"),
         ("BUSHING/3, J=20", "a command cannot change J of BUSHING/3"),
         (
             "MARKER/20, QP=1, 0, 0",
-            "stiction cannot change MARKER by a command",
+            "a command cannot change QP of MARKER/20",
         ),
     ] {
         let kept = model.clone();

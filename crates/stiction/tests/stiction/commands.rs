@@ -323,7 +323,11 @@ fn contacts_are_refused_unless_they_are_deactivated() {
     let off = format!("\nFILE/MODEL=slider\nDEACTIVATE/CONTACT, ID=7\n{run}");
     assert_eq!(told("off.acf", &off), "");
     let again = format!("{off}ACTIVATE/CONTACT, RANGE=1, 9\nSIMULATE/DYNAMIC, END=2, STEPS=4\n");
-    assert!(told("again.acf", &again).contains("CONTACT/7 acts here"));
+    let text = told("again.acf", &again);
+    assert!(
+        text.contains("again.acf:5:1: error") && text.contains("CONTACT/7 acts here"),
+        "{text}"
+    );
     let alone = Project::load(&folder.join("slider.adm")).unwrap();
     let error = stiction::check(&alone).unwrap_err().to_string();
     assert!(error.contains("CONTACT/7 acts here"), "{error}");
@@ -339,7 +343,7 @@ fn a_motion_changes_its_level_and_statements_are_listed() {
     std::fs::write(folder.join("crank.adm"), CRANK).unwrap();
     let commands = "\nFILE/MODEL=crank\nMOTION/1, VELOCITY, FUNCTION=2, ICDISP=0.5\n\
                     SIM/TRA, END=1, STEPS=5\nMOTION/1, DISPLACEMENT, FUNCTION=3*TIME, LIST\n\
-                    SIM/TRA, END=2, STEPS=5\n";
+                    MARKER/20, LIST\nSIM/TRA, END=2, STEPS=5\n";
     let file = folder.join("level.acf");
     std::fs::write(&file, commands).unwrap();
     let project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
@@ -360,6 +364,7 @@ fn a_motion_changes_its_level_and_statements_are_listed() {
         );
     }
     assert!(log.contains("  MOTION/1\n  , JOINT=1\n"), "{log}");
+    assert!(log.contains("  MARKER/20, PART=2, QP=0.5, 0, 0\n"), "{log}");
 }
 
 /// An end that is over when its turn comes is a failure of that command alone; before the run it is
