@@ -154,7 +154,8 @@ impl<'a> Grouping<'a> {
             Some(current) => current.name_comment.or(Some(current.tokens.start)),
             None => self.name_comment,
         };
-        let first = comment.unwrap_or(self.at);
+        // END stays, too: it may have ended the statement before.
+        let first = comment.unwrap_or(self.at).min(self.end.unwrap_or(self.at));
         self.lexer.tokens.drain(..first);
         self.at -= first;
         let positions = [&mut self.name_comment, &mut self.end];
