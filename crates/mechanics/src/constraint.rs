@@ -3,9 +3,10 @@
 use crate::equation::{Axis, Equation, Local, LocalMatrix};
 use crate::expression::Input;
 use crate::model::{Element, JointKind, Level, Model, MotionFreedom};
+use serde::{Deserialize, Serialize};
 
 /// The element that a constraint equation belongs to, by its place in the model's lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Owner {
     /// A joint or joint primitive.
     Joint(usize),

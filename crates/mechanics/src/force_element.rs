@@ -2,9 +2,10 @@
 
 use crate::constraint::Owner;
 use crate::model::{JointKind, Model};
+use serde::{Deserialize, Serialize};
 
 /// An element that applies a force and a torque between two markers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ForceElement {
     /// A joint, primitive, motion or general constraint.
     Constraint(Owner),
@@ -31,7 +32,7 @@ impl ForceElement {
 }
 
 /// On which of its two markers an element's force is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Side {
     /// On the part of I, about the origin of I.
     I,
@@ -40,7 +41,7 @@ pub enum Side {
 }
 
 /// Whose force is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Acting {
     /// That of one element.
     Element(ForceElement, Side),
@@ -55,7 +56,7 @@ pub enum Acting {
 }
 
 /// One component of a force or torque.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ForceComponent {
     /// Whose.
     pub acting: Acting,

@@ -6,6 +6,7 @@
 //! bristle deflections of LuGre frictions, and last the works of frictions, forces and motions.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use crate::model::{Body, Marker};
 use crate::rotation::Quaternion;
@@ -16,7 +17,7 @@ pub const POSITIONS: usize = 7;
 pub const VELOCITIES: usize = 6;
 
 /// Time, positions and velocities of all bodies.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Time.
     pub time: f64,
@@ -51,6 +52,19 @@ impl State {
         self.bristles = bristles;
         let size = self.rate_range().end + bristles + works;
         self.values.resize(size, 0.0);
+    }
+
+    /// Whether it holds the same numbers of everything as another.
+    pub(crate) fn has_layout_of(&self, other: &Self) -> bool {
+        let counts = |state: &Self| {
+            (
+                state.bodies,
+                state.states,
+                state.bristles,
+                state.values.len(),
+            )
+        };
+        counts(self) == counts(other)
     }
 
     /// Number of bodies.

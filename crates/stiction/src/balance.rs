@@ -13,6 +13,7 @@
 
 use mechanics::{Snapshot, gravity_energy, kinetic_energy};
 use results::UnitNames;
+use serde::{Deserialize, Serialize};
 
 use crate::text_table::text_table;
 use crate::wrenches::Wrenches;
@@ -24,7 +25,7 @@ const SUSPICIOUS: f64 = 1e-3;
 const ROUNDING: f64 = 1e-12;
 
 /// An energy of the model over a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyTerm {
     /// At the start of the first dynamic simulation.
     pub start: f64,
@@ -36,7 +37,7 @@ pub struct EnergyTerm {
 }
 
 /// Energy balance of the dynamic simulations of a run, all in the model's unit force · length.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
     /// Unit of the energies.
     pub unit: String,
@@ -128,7 +129,7 @@ impl std::fmt::Display for EnergyBalance {
 type Sums = [f64; 5];
 
 /// Keeps the energy balance of a run, and what each friction dissipated.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EnergyAccount {
     unit: String,
     balance: Option<EnergyBalance>,

@@ -12,7 +12,9 @@
 //! | files to a checked dataset and commands | `loader.rs`, `project.rs` |
 //! | dataset to mechanics | `lower/` |
 //! | a run from outside | `session.rs` |
+//! | what the commands will ask for | `survey.rs` |
 //! | commands carried out | `runner.rs`, equilibria in `statics.rs`, settings and output times in `settings.rs` |
+//! | SAVE and RELOAD | `saving.rs`, their file `saved_system.rs` |
 //! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs` |
 //! | events | `sensors.rs` |
 //! | message file | `journal.rs`, LIST in `listing.rs` |
@@ -62,10 +64,13 @@ mod recorder;
 mod refusal;
 mod report;
 mod runner;
+mod saved_system;
+mod saving;
 mod sensors;
 mod session;
 mod settings;
 mod statics;
+mod survey;
 mod text_table;
 mod warnings;
 mod wrenches;

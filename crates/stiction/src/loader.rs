@@ -237,6 +237,7 @@ impl Loader {
         };
         Ok(Project {
             dataset,
+            given_changes: Vec::new(),
             model,
             commands: self.commands,
             sources: self.sources,
@@ -250,7 +251,7 @@ impl Loader {
 }
 
 /// The part of a path behind its last separator, of this or another system.
-fn base_name(path: &str) -> &str {
+pub(crate) fn base_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 

@@ -3,16 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use dataset::{
-    Change, ChangeKind, Code, Command, CommandKind, Dataset, Diagnostic, Severity, Simulate,
-    SimulationKind, Source, Span,
+    Change, Code, Command, CommandKind, Dataset, Diagnostic, Severity, Simulate, SimulationKind,
+    Source, Span,
 };
+use sha2::{Digest, Sha256};
 
 use crate::levels::Levels;
 use crate::loader;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::refusal;
-use crate::settings::{self, SpanError};
+use crate::survey;
 
 /// A checked dataset with the commands of its command file.
 ///
@@ -24,6 +25,8 @@ use crate::settings::{self, SpanError};
 #[derive(Clone, Debug)]
 pub struct Project {
     pub(crate) dataset: Dataset,
+    /// The changes made before the run.
+    pub(crate) given_changes: Vec<String>,
     /// Place of the dataset's source in `sources`.
     pub(crate) model: usize,
     pub(crate) commands: Vec<SourcedCommand>,
@@ -102,8 +105,24 @@ impl Project {
         &self.warnings
     }
 
+    /// A checksum of the model as given: the text of the dataset and the changes made before the run.
+    pub(crate) fn model_checksum(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update(self.model_source().text());
+        for change in &self.given_changes {
+            hash.update([0]);
+            hash.update(change);
+        }
+        hexadecimal(&hash.finalize())
+    }
+
     pub(crate) fn steps(&self) -> &[SourcedCommand] {
         &self.commands
+    }
+
+    /// A command as it is written.
+    pub(crate) fn text_of(&self, step: &SourcedCommand) -> &str {
+        self.sources[step.source].slice(step.command.span)
     }
 
     pub(crate) fn model_source(&self) -> &Source {
@@ -126,6 +145,7 @@ impl Project {
             return Err(InputError { messages });
         }
         self.warnings.extend(messages);
+        self.given_changes.push(change.to_owned());
         Ok(())
     }
 
@@ -197,83 +217,13 @@ impl Project {
         }
     }
 
-    /// Lowers the model as given and after each change of the command file, so that everything
+    /// Looks through the model as given and after each change of the command file, so that everything
     /// that is not simulated is known before the run; returns the measures of all of them.
     ///
     /// # Errors
     /// Everything that is not simulated, and simulations that cannot be.
     pub(crate) fn survey(&self) -> Result<(Measures, Vec<Message>), InputError> {
-        let mut measures = Measures::default();
-        let source = self.model_source();
-        let lowered = lower(&self.dataset, source.name(), &mut measures, Mode::Dynamic);
-        let given = lowered.is_ok();
-        let mut messages: Vec<Message> = lowered
-            .map_or_else(|diagnostics| diagnostics, |lowered| lowered.warnings)
-            .into_iter()
-            .map(|diagnostic| Message::new(diagnostic, source))
-            .collect();
-        let mut dataset = self.dataset.clone();
-        let mut changed = None;
-        let mut time = 0.0;
-        let acting = |dataset: &Dataset| refusal::acting(dataset, source.name());
-        // The command that has brought such an element back.
-        let mut back = None;
-        // What is not simulated is told once.
-        let mut told = false;
-        for step in &self.commands {
-            let kind = &step.command.kind;
-            if matches!(
-                kind,
-                CommandKind::Simulate(_) | CommandKind::Eigensolution(_)
-            ) {
-                // A model that is refused as given would be refused again.
-                if let Some(changed) = changed.take().filter(|_| given) {
-                    let lowered = lower(&dataset, source.name(), &mut measures, Mode::Dynamic);
-                    messages.extend(self.at_command(lowered.err(), changed));
-                }
-                if !told {
-                    let mut found = acting(&dataset);
-                    told = found.is_some();
-                    if let Some(step) = back {
-                        if let Some(error) = &mut found {
-                            error.help("leave it out of this command, or take it out of the model");
-                        }
-                        messages.extend(self.at_command(found.map(|error| vec![error]), step));
-                    } else {
-                        messages.extend(found.map(|error| Message::new(error, source)));
-                    }
-                }
-            }
-            match kind {
-                CommandKind::Change(change) => {
-                    let switches = matches!(change.kind, ChangeKind::Activity(_));
-                    let rested = switches && acting(&dataset).is_none();
-                    messages.extend(self.change(&mut dataset, change, step.source));
-                    if rested && acting(&dataset).is_some() {
-                        back = Some(step);
-                    }
-                    changed = Some(step);
-                }
-                CommandKind::Simulate(simulate) => match settings::span(simulate, time) {
-                    Ok(span) => time = span.map_or(time, |span| span.end),
-                    Err(error) => messages.extend(self.foreseen(error, step)),
-                },
-                CommandKind::Eigensolution(asked) => {
-                    if let Some((id, _)) = asked.reference
-                        && dataset.markers.by_id(id).is_none()
-                    {
-                        let text = format!("there is no MARKER/{id}");
-                        let missing = Code::MissingElement;
-                        messages.push(self.about(step, Severity::Error, missing, text, None));
-                    }
-                }
-                CommandKind::Stop => break,
-                CommandKind::Model { .. } | CommandKind::CommandFile { .. } => {}
-            }
-        }
-        if self.commands.is_empty() {
-            messages.extend(acting(&dataset).map(|error| Message::new(error, source)));
-        }
+        let (measures, messages) = survey::of_project(self);
         let messages = self.levels.judge_all(messages);
         if messages.iter().any(Message::is_error) {
             Err(InputError { messages })
@@ -298,21 +248,6 @@ impl Project {
         Message::new(diagnostic, source)
     }
 
-    /// What a SIMULATE is told before the run that cannot be carried out if those before it run to
-    /// their ends. A failure or a sensor may end one of them earlier, so that an end that is over
-    /// is judged when its turn comes; a sensor is expected to.
-    fn foreseen(&self, error: SpanError, step: &SourcedCommand) -> Option<Message> {
-        let severity = match error {
-            SpanError::Past { .. } if self.dataset.sensors.iter().any(|s| s.returns) => {
-                return None;
-            }
-            SpanError::Past { .. } => Severity::Warning,
-            SpanError::Outputs(_) => Severity::Error,
-        };
-        let text = error.to_string();
-        Some(self.about(step, severity, error.code(), text, Some(error.help())))
-    }
-
     /// Makes a change of a command; returns what is to be said about it.
     pub(crate) fn change(
         &self,
@@ -326,32 +261,15 @@ impl Project {
             .map(|diagnostic| Message::new(diagnostic, source))
             .collect()
     }
-
-    /// Messages about a changed model, at the command that changed it.
-    fn at_command(
-        &self,
-        diagnostics: Option<Vec<Diagnostic>>,
-        command: &SourcedCommand,
-    ) -> Vec<Message> {
-        let source = &self.sources[command.source];
-        let diagnostics = diagnostics.into_iter().flatten();
-        let moved = diagnostics
-            .filter(|d| d.severity == Severity::Error)
-            .map(|d| {
-                let moved = Diagnostic {
-                    source: source.name().to_owned(),
-                    span: command.command.span,
-                    replacement: None,
-                    ..d
-                };
-                Message::new(moved, source)
-            });
-        moved.collect()
-    }
 }
 
 fn has_error(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|d| d.severity == Severity::Error)
+}
+
+/// Bytes as text.
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// One second in the unit of time of a dataset.

@@ -1,11 +1,12 @@
 //! Writes the rows of results while a simulation runs.
 
+use std::fs::File;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use mechanics::{Snapshot, StepReport};
-use results::{DataKind, ReqWriter, ResWriter, StepRow, WriteError};
+use results::{DataKind, Header, ReqWriter, ResWriter, StepRow, WriteError};
 
 use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row};
@@ -23,12 +24,61 @@ pub(crate) enum Stop {
     NotFinite(String),
 }
 
+/// A `.res` and a `.req` that are being written.
+pub(crate) struct ResultFiles<W: Write> {
+    res: ResWriter<W>,
+    req: ReqWriter<W>,
+    paths: [PathBuf; 2],
+}
+
+impl ResultFiles<File> {
+    /// The paths of the two files of a prefix.
+    pub(crate) fn paths(folder: &Path, prefix: &str) -> [PathBuf; 2] {
+        ["res", "req"].map(|extension| folder.join(format!("{prefix}.{extension}")))
+    }
+
+    /// Creates both with their heads.
+    pub(crate) fn create(
+        paths: [PathBuf; 2],
+        header: &Header,
+        channels: &Channels,
+    ) -> Result<Self, OutputError> {
+        let wrong =
+            |path: &Path, cause: String| OutputError::new(path.display().to_string(), &cause);
+        let create = |path: &Path| File::create(path).map_err(|e| wrong(path, e.to_string()));
+        let res = ResWriter::new(create(&paths[0])?, header, channels.layout().clone());
+        let res = res.map_err(|error| wrong(&paths[0], error.to_string()))?;
+        let (title, units, requests) = (&header.title, &header.units, channels.requests());
+        let req = ReqWriter::new(create(&paths[1])?, title, None, units, requests);
+        let req = req.map_err(|error| wrong(&paths[1], error.to_string()))?;
+        Ok(Self { res, req, paths })
+    }
+}
+
+impl<W: Write> ResultFiles<W> {
+    fn error(&self, place: usize, cause: &impl ToString) -> OutputError {
+        OutputError::new(self.paths[place].display().to_string(), cause)
+    }
+
+    fn res_error(&self, error: &WriteError) -> OutputError {
+        self.error(0, error)
+    }
+
+    /// Ends both; returns their paths.
+    pub(crate) fn finish(self, status: &str) -> Result<[PathBuf; 2], OutputError> {
+        let Self { res, paths, .. } = self;
+        let shown = paths[0].display().to_string();
+        res.finish(status)
+            .map_err(|error| OutputError::new(shown, &error))?;
+        Ok(paths)
+    }
+}
+
 /// The files of results and what a row needs.
 pub(crate) struct Recorder<W: Write> {
-    pub(crate) res: ResWriter<W>,
-    pub(crate) req: ReqWriter<W>,
-    /// Paths of `.res`, `.req` and `.msg`.
-    pub(crate) files: Vec<PathBuf>,
+    pub(crate) files: ResultFiles<W>,
+    /// Paths of the message file and of results that are finished.
+    pub(crate) others: Vec<PathBuf>,
     pub(crate) channels: Channels,
     pub(crate) outputs: Outputs,
     pub(crate) row: Row,
@@ -39,31 +89,38 @@ pub(crate) struct Recorder<W: Write> {
 }
 
 impl<W: Write> Recorder<W> {
-    fn path(&self, place: usize) -> String {
-        self.files
-            .get(place)
-            .map(|path| path.display().to_string())
-            .unwrap_or_default()
+    /// Ends the files and writes others.
+    pub(crate) fn change_files(
+        &mut self,
+        files: ResultFiles<W>,
+        status: &str,
+    ) -> Result<(), OutputError> {
+        let before = std::mem::replace(&mut self.files, files);
+        self.others.extend(before.finish(status)?);
+        Ok(())
     }
 
-    fn res_error(&self, error: &WriteError) -> OutputError {
-        OutputError::new(self.path(0), error)
+    /// Whether one of the files of this run has this path.
+    pub(crate) fn has_written(&self, path: &Path) -> bool {
+        let all = self.others.iter().chain(&self.files.paths);
+        all.into_iter().any(|written| written == path)
     }
 
     /// The block that stands for the model as given: zeros, as in Adams.
     pub(crate) fn model_input(&mut self) -> Result<(), OutputError> {
         let zeros = vec![0.0; self.channels.layout().value_count()];
-        let written = self.res.begin_data(DataKind::ModelInput);
-        let written = written.and_then(|()| self.res.step(0.0, &zeros));
-        written.map_err(|error| self.res_error(&error))
+        let written = self.files.res.begin_data(DataKind::ModelInput);
+        let written = written.and_then(|()| self.files.res.step(0.0, &zeros));
+        written.map_err(|error| self.files.res_error(&error))
     }
 
     /// Begins a block of rows.
     pub(crate) fn begin(&mut self, kind: DataKind) -> Result<(), OutputError> {
         self.account.pause();
-        self.res
+        self.files
+            .res
             .begin_data(kind)
-            .map_err(|error| self.res_error(&error))
+            .map_err(|error| self.files.res_error(&error))
     }
 
     /// Begins the rows of a dynamic or kinematic simulation that starts at this instant.
@@ -104,8 +161,8 @@ impl<W: Write> Recorder<W> {
         let dissipated = self.account.dissipated();
         report::add(&mut self.frictions, wrenches, dissipated);
         let time = wrenches.snapshot().time();
-        let written = self.req.step(time, &self.row.requests);
-        written.map_err(|error| Stop::Output(OutputError::new(self.path(1), &error)))
+        let written = self.files.req.step(time, &self.row.requests);
+        written.map_err(|error| Stop::Output(self.files.error(1, &error)))
     }
 
     fn write_results(&mut self, wrenches: &Wrenches<'_>) -> Result<(), Stop> {
@@ -119,8 +176,8 @@ impl<W: Write> Recorder<W> {
                 "the result {name} is not a finite number at time {time}"
             )));
         }
-        let written = self.res.step(time, &self.row.values);
-        written.map_err(|error| Stop::Output(self.res_error(&error)))
+        let written = self.files.res.step(time, &self.row.values);
+        written.map_err(|error| Stop::Output(self.files.res_error(&error)))
     }
 }
 

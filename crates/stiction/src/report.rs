@@ -160,7 +160,8 @@ pub(crate) fn add(reports: &mut [FrictionReport], wrenches: &Wrenches<'_>, dissi
         report.clipped += usize::from(values.clipped);
         let (time, speed) = (snapshot.time(), values.velocity.norm());
         let (before, slower) = std::mem::replace(&mut report.last, (time, speed));
-        report.path += (time - before) * 0.5 * (speed + slower);
+        // RELOAD goes back in time.
+        report.path += (time - before).max(0.0) * 0.5 * (speed + slower);
         report.fastest = report.fastest.max(speed);
         report.work = snapshot.works()[place];
         report.energy = energy;

@@ -1,12 +1,14 @@
 //! A run: commands carried out one by one, results written as they come.
 
+use std::collections::HashMap;
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use dataset::{Change, Code, CommandKind, Dataset, Severity, Simulate, SimulationKind};
 use mechanics::{Assembly, AssemblyError, Ending, Simulation};
-use results::{DataKind, Header, MessageWriter, ReqWriter, ResWriter};
+use results::{DataKind, Header, MessageWriter};
+use serde::{Deserialize, Serialize};
 
 use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row, unit_names};
@@ -17,8 +19,9 @@ use crate::listing;
 use crate::lower::{Lowered, Measures, Mode, lower};
 use crate::message::Message;
 use crate::project::{Project, SourcedCommand, second};
-use crate::recorder::{Observe, Recorder, Stop};
+use crate::recorder::{Observe, Recorder, ResultFiles, Stop};
 use crate::report;
+use crate::saved_system::SavedSystem;
 use crate::sensors::{Effect, Sensing, Sensors};
 use crate::session::{FailedCommand, Outcome, OutputError, RunOptions, RunReport, Session, Watch};
 use crate::settings::{self, TimeSpan};
@@ -30,13 +33,19 @@ const TABLE_ROWS: f64 = 10.0;
 pub(crate) struct Runner<'a> {
     pub(crate) session: &'a Session<'a>,
     options: RunOptions,
+    /// Where the results go.
+    pub(crate) folder: PathBuf,
     pub(crate) dataset: Dataset,
-    measures: Measures,
+    /// The commands that have changed the dataset, as a command file.
+    pub(crate) changes_made: String,
+    /// What SAVE/STATES keeps, by name.
+    pub(crate) buffers: HashMap<String, SavedSystem>,
+    pub(crate) measures: Measures,
     pub(crate) lowered: Lowered,
     /// Whether the dataset has changed since it was lowered.
-    changed: bool,
+    pub(crate) changed: bool,
     pub(crate) simulation: Simulation,
-    assembled: bool,
+    pub(crate) assembled: bool,
     pub(crate) instant: Recorded,
     /// Typical length of the assembled model.
     pub(crate) length: f64,
@@ -50,7 +59,7 @@ pub(crate) struct Runner<'a> {
 }
 
 /// What the results hold of the present instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Recorded {
     /// Nothing yet.
     Nothing,
@@ -123,34 +132,30 @@ impl<'a> Runner<'a> {
         let units = unit_names(&dataset);
         let channels =
             Channels::new(&dataset, &lowered, &units).map_err(|e| OutputError::new(source, &e))?;
-        let create = |extension: &str| {
-            let path = folder.join(format!("{}.{extension}", project.prefix()));
-            let shown = path.display().to_string();
-            let file = File::create(&path).map_err(|error| OutputError::new(&shown, &error))?;
-            Ok::<_, OutputError>((file, path, shown))
-        };
-        let (log, log_path, shown) = create("msg")?;
+        let log_path = folder.join(format!("{}.msg", project.prefix()));
+        let shown = log_path.display().to_string();
+        let log = File::create(&log_path).map_err(|error| OutputError::new(&shown, &error))?;
         let version = env!("CARGO_PKG_VERSION");
         let log = MessageWriter::new(log, "stiction", version, None)
             .map_err(|error| OutputError::new(&shown, &error))?;
         let log = Journal::new(log, shown, project);
-        let (res, res_path, shown) = create("res")?;
         let header = Header {
             title: dataset.title.clone(),
             units: units.clone(),
             ..Header::default()
         };
-        let res = ResWriter::new(res, &header, channels.layout().clone())
-            .map_err(|error| OutputError::new(&shown, &error))?;
-        let (req, req_path, shown) = create("req")?;
-        let req = ReqWriter::new(req, &dataset.title, None, &units, channels.requests())
-            .map_err(|error| OutputError::new(&shown, &error))?;
+        let paths = ResultFiles::paths(folder, project.prefix());
+        let files = ResultFiles::create(paths, &header, &channels)?;
         let simulation = Simulation::new(lowered.model.clone(), second(&dataset));
         let frictions = report::reports(&simulation.snapshot(), &units);
         Ok(Self {
             session,
             options,
+            folder: folder.to_owned(),
             dataset,
+            // The first line of a command file may name a model.
+            changes_made: "\n".to_owned(),
+            buffers: HashMap::new(),
             measures,
             changed: false,
             simulation,
@@ -164,9 +169,8 @@ impl<'a> Runner<'a> {
             last_end: last_end(project),
             log,
             recorder: Recorder {
-                res,
-                req,
-                files: vec![res_path, req_path, log_path],
+                files,
+                others: vec![log_path],
                 channels,
                 outputs: lowered.outputs.clone(),
                 row: Row::default(),
@@ -184,13 +188,17 @@ impl<'a> Runner<'a> {
         if project.is_dataset_alone() {
             self.log_model()?;
         }
-        for step in project.steps() {
+        for (place, step) in project.steps().iter().enumerate() {
             self.log.command(&step.command.echo)?;
             let done = match &step.command.kind {
                 CommandKind::Model { .. } => self.log_model().map_err(Halt::from),
                 CommandKind::Change(change) => self.change(change, step),
                 CommandKind::Simulate(simulate) => self.simulate(simulate, step, watch),
                 CommandKind::Eigensolution(asked) => self.eigensolution(asked),
+                CommandKind::Save(place) => self.save(place, step),
+                CommandKind::Reload(reload) => {
+                    self.reload(reload, step, &project.steps()[place + 1..])
+                }
                 // The commands of the file follow.
                 CommandKind::CommandFile { .. } => Ok(()),
                 CommandKind::Stop => break,
@@ -218,9 +226,13 @@ impl<'a> Runner<'a> {
                 Err(Halt::Output(error)) => return Err(error),
             }
         }
-        // The first failure is how the run ends.
+        Ok(self.outcome())
+    }
+
+    /// How the run has gone so far: the first failure is how it ends.
+    pub(crate) fn outcome(&self) -> Outcome {
         let first = self.failures.first();
-        Ok(first.map_or(Outcome::Completed, |failure| failure.outcome.clone()))
+        first.map_or(Outcome::Completed, |failure| failure.outcome.clone())
     }
 
     /// PREFERENCES/SIMFAIL: whether a simulation that fails ends the run. As in Adams it does not by
@@ -246,6 +258,8 @@ impl<'a> Runner<'a> {
         let project = self.session.project;
         // The survey has found nothing wrong with it, and its warnings have been told.
         let _ = project.change(&mut self.dataset, change, step.source);
+        self.changes_made += project.text_of(step);
+        self.changes_made.push('\n');
         if change.kind.is_of_model() {
             self.changed = true;
             if self.instant == Recorded::Equilibrium {
@@ -326,7 +340,7 @@ impl<'a> Runner<'a> {
 
     /// Lowers the dataset again where commands have changed it, or where a function that reads MODE
     /// is about to be read in another analysis.
-    fn take_changes(&mut self, mode: Mode) -> Result<(), Halt> {
+    pub(crate) fn take_changes(&mut self, mode: Mode) -> Result<(), Halt> {
         let another = self.lowered.reads_mode && self.lowered.mode != mode;
         if !std::mem::take(&mut self.changed) && !another {
             return Ok(());
@@ -467,14 +481,10 @@ impl<'a> Runner<'a> {
 
     pub(crate) fn finish(mut self, outcome: Outcome) -> Result<RunReport, OutputError> {
         let elapsed = self.started.elapsed().as_secs_f64();
-        let (status, text) = match &outcome {
-            Outcome::Completed => ("Successful", None),
-            Outcome::Interrupted => ("Interrupted", Some("interrupted; results so far are kept")),
-            // What has failed has been told.
-            Outcome::Refused(_) => ("Not simulated", None),
-            Outcome::AssemblyFailed(_) => ("Assembly failed", None),
-            Outcome::IntegrationFailed(_) => ("Integration failed", None),
-        };
+        let status = status(&outcome);
+        // What has failed has been told.
+        let interrupted = outcome == Outcome::Interrupted;
+        let text = interrupted.then_some("interrupted; results so far are kept");
         self.log.frictions(&self.recorder.frictions)?;
         if let Some(balance) = self.recorder.account.balance() {
             self.log.balance(balance)?;
@@ -482,19 +492,14 @@ impl<'a> Runner<'a> {
         let completed = outcome == Outcome::Completed;
         self.log.finish(completed, text, elapsed)?;
         let Recorder {
-            res,
+            files,
+            mut others,
             frictions,
             account,
             count,
-            files,
             ..
         } = self.recorder;
-        let path = files
-            .first()
-            .map(|path| path.display().to_string())
-            .unwrap_or_default();
-        res.finish(status)
-            .map_err(|error| OutputError::new(path, &error))?;
+        others.splice(0..0, files.finish(status)?);
         let warnings = self.log.warnings();
         Ok(RunReport {
             outcome,
@@ -508,9 +513,20 @@ impl<'a> Runner<'a> {
             frictions,
             modes: self.modes,
             balance: account.balance().cloned(),
-            files,
+            files: others,
             elapsed,
         })
+    }
+}
+
+/// What the results say of how a run ended.
+pub(crate) const fn status(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Completed => "Successful",
+        Outcome::Interrupted => "Interrupted",
+        Outcome::Refused(_) => "Not simulated",
+        Outcome::AssemblyFailed(_) => "Assembly failed",
+        Outcome::IntegrationFailed(_) => "Integration failed",
     }
 }
 

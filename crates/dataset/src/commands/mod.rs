@@ -1,6 +1,7 @@
 //! From text to a [`CommandFile`].
 
 mod linear;
+mod states;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::grammar::{Form, Grammar};
@@ -251,6 +252,14 @@ const COMMANDS: &[Rule] = &[
     read("FILE", "FILE", false, FILE_KEYWORDS, file),
     read("SIMULATE", "SIM", false, SIMULATE_KEYWORDS, simulate),
     read("LINEAR", "LIN", false, linear::KEYWORDS, linear::linear),
+    read("SAVE", "SAVE", false, states::SAVE_KEYWORDS, states::save),
+    read(
+        "RELOAD",
+        "REL",
+        false,
+        states::RELOAD_KEYWORDS,
+        states::reload,
+    ),
     read("STOP", "STOP", false, &[], |_| Some(CommandKind::Stop)),
     read(
         "FRICTION",
@@ -333,8 +342,6 @@ const COMMANDS: &[Rule] = &[
     ignored("RETURN", DRAWS),
     ignored("SET", DRAWS),
     unsupported("CONTROL"),
-    unsupported("RELOAD"),
-    unsupported("SAVE"),
 ];
 
 const FILE_KEYWORDS: &[Keyword] = &[

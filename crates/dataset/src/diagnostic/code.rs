@@ -188,6 +188,8 @@ codes! {
     Jam = "jam", "Lower the coefficient, lengthen the guide or move the force nearer to it; a real mechanism jams there, too.";
     /// SIMULATE/KINEMATIC of a model with degrees of freedom.
     NotKinematic = "not-kinematic", "Drive every freedom with a MOTION, or write SIMULATE/DYNAMIC.";
+    /// A state that cannot be saved or reloaded: the file is missing, damaged, or of another model or version.
+    SavedSystem = "saved-system", "Name a file that SAVE/SYSTEM has written, with the dataset that it was saved of.";
     /// Equations that were left out as redundant do not hold any more: joints or motions contradict one another.
     RedundantBroken = "redundant-broken", "Remove the redundant constraints that the message names.";
     /// A sliding joint has left its guide: its overlap is used up, and a thousandth of it is kept.

@@ -43,10 +43,35 @@ pub enum CommandKind {
     Simulate(Simulate),
     /// LINEAR/EIGENSOL.
     Eigensolution(Eigensolution),
+    /// SAVE.
+    Save(SavedIn),
+    /// RELOAD.
+    Reload(Reload),
     /// A statement that changes the model.
     Change(Box<Change>),
     /// STOP.
     Stop,
+}
+
+/// Where SAVE keeps a state and RELOAD finds it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum SavedIn {
+    /// SYSTEM, FILE: model and state, in a file of that name.
+    File(String),
+    /// STATES, BUFFER: the state alone, by that name until the run ends.
+    Buffer(String),
+}
+
+/// RELOAD: back to what SAVE has kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reload {
+    /// Where it is.
+    pub from: SavedIn,
+    /// `OUTPUT_PREFIX`: what the output files that follow are called; without it the open ones are
+    /// written on.
+    pub output_prefix: Option<String>,
+    /// TITLE of the output files that follow.
+    pub title: Option<String>,
 }
 
 /// The analysis of a SIMULATE command.

@@ -33,7 +33,7 @@ pub use activity::{Activity, Selection, Switchable};
 pub use array::{Array, ArrayKind, Matrix, Text};
 pub use commands::{
     AmendedArgument, Amendment, Change, ChangeKind, Command, CommandFile, CommandKind,
-    Eigensolution, FrictionArguments, Simulate, SimulationKind,
+    Eigensolution, FrictionArguments, Reload, SavedIn, Simulate, SimulationKind,
 };
 pub use contact::{Contact, ContactFriction, ContactLaw};
 pub use coupler::{CoupledFreedom, Coupler, Gear};

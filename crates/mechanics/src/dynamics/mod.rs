@@ -34,6 +34,7 @@ mod quadrature;
 
 use numerics::bdf;
 use numerics::linear::{Matrix, SparseLu};
+use serde::{Deserialize, Serialize};
 
 use crate::instant::Failure;
 use crate::joint_friction::Memory;
@@ -97,7 +98,7 @@ pub struct Work {
 }
 
 /// Scales that make the error test independent of the choice of units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Scales {
     /// Typical length.
     pub(crate) length: f64,

@@ -2,6 +2,7 @@
 
 use friction::Regime;
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::response::norm;
 use super::{freedoms, surface_velocity};
@@ -11,7 +12,7 @@ use crate::rotation::log;
 use crate::state::MarkerFrame;
 
 /// What friction remembers of the last accepted step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Creep by component, of a spherical joint along the axes of J.
     pub creep: [f64; 3],
@@ -36,7 +37,7 @@ pub struct Memory {
 }
 
 /// What a friction did so far, step by step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     /// Whether it sticks now.
     pub sticking: bool,

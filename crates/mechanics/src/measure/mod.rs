@@ -15,9 +15,10 @@ pub use acceleration::{MarkerAcceleration, acceleration, acceleration_slopes};
 pub use angles::Sequence;
 use angles::{body_fixed, euler_parameter};
 use frame::Frame;
+use serde::{Deserialize, Serialize};
 
 /// The quantities, named after the functions of the dataset language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Quantity {
     /// DX, DY, DZ: component of `d` along axis 0, 1 or 2 of k.
     Displacement(usize),
@@ -92,7 +93,7 @@ impl Quantity {
 }
 
 /// A quantity and its markers, by their places in [`crate::model::Model::markers`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Measure {
     /// What is measured.
     pub quantity: Quantity,

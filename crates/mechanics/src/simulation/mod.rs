@@ -4,12 +4,14 @@ mod energy;
 mod failure;
 mod integration;
 mod report;
+mod saved;
 mod statics;
 
 use numerics::bdf::{self, Bdf};
 
 pub use energy::{gravity_energy, kinetic_energy};
 pub use report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
+pub use saved::{ForeignState, SavedState};
 
 use crate::assembly::{Assembly, AssemblyError};
 use crate::dynamics::{Dynamics, Scales};

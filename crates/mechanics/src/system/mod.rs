@@ -45,6 +45,7 @@ use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
 pub(crate) use newton_matrix::Weights;
+use serde::{Deserialize, Serialize};
 
 /// Which equations the constraint rows of the Newton matrix belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +57,7 @@ pub(crate) enum Rows {
 }
 
 /// History that the equations need beside the state.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// Friction by element.
     pub frictions: Vec<Memory>,
@@ -338,6 +339,11 @@ impl System {
         self.statics = statics;
     }
 
+    /// Whether the instants are static ones.
+    pub(crate) fn is_static(&self) -> bool {
+        self.statics
+    }
+
     /// Stick begins anew, without creep, where friction slides.
     pub(crate) fn stick_all(&mut self) {
         for place in 0..self.model.frictions.len() {
@@ -381,7 +387,12 @@ impl System {
 
     /// Takes over the present rotations as the last accepted ones.
     pub(crate) fn remember_angles(&mut self) {
-        for place in 0..self.model.measures.len() {
+        self.remember_angles_from(0);
+    }
+
+    /// The same for the measures from a place on.
+    pub(crate) fn remember_angles_from(&mut self, first: usize) {
+        for place in first..self.model.measures.len() {
             if matches!(self.model.measures[place].quantity, Quantity::Rotation(_)) {
                 self.history.angles[place] = self.measure_value(place);
             }

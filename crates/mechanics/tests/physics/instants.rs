@@ -274,3 +274,25 @@ fn push_off_the_axis_slides_or_sticks_whatever_its_size() {
         ),
     ]);
 }
+
+/// What is saved of one model is no state of another; the simulation stays as it is then.
+#[test]
+fn a_saved_state_fits_its_own_model_only() {
+    let model = |bodies: usize| {
+        let mut model = Builder::new(v(0.0, 0.0, -10.0));
+        for _ in 0..bodies {
+            model.body(1.0, [1.0; 3], v(0.0, 0.0, 0.0));
+        }
+        model.model
+    };
+    let saved = assembled(model(1)).save();
+    let mut other = assembled(model(2));
+    let before = other.save();
+    assert_eq!(
+        other.restore(model(2), &saved),
+        Err(mechanics::ForeignState)
+    );
+    assert_eq!(other.save(), before);
+    assert_eq!(other.restore(model(1), &saved), Ok(()));
+    assert_eq!(other.save(), saved);
+}

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::unknowns::Unknowns;
+use super::unknowns::{Unknown, Unknowns};
 use dataset::{Expr, Function};
 use mechanics::measure::{Measure, Quantity, Sequence};
+use serde::{Deserialize, Serialize};
 
 /// The measures of a model, each once, in the order in which functions first name them.
 ///
@@ -18,7 +19,33 @@ pub(crate) struct Measures {
     pub(super) unknowns: Unknowns,
 }
 
+/// What is numbered in a list of measures, in the order of the numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Numbering {
+    measures: Vec<Measure>,
+    unknowns: Vec<Unknown>,
+}
+
 impl Measures {
+    /// The numbering so far.
+    pub(crate) fn numbering(&self) -> Numbering {
+        Numbering {
+            measures: self.list.clone(),
+            unknowns: self.unknowns.list().to_vec(),
+        }
+    }
+
+    /// A list that goes on from a numbering.
+    pub(crate) fn of_numbering(numbering: &Numbering) -> Self {
+        let list = numbering.measures.clone();
+        let places = list.iter().enumerate();
+        Self {
+            places: places.map(|(place, measure)| (*measure, place)).collect(),
+            list,
+            unknowns: Unknowns::of_list(&numbering.unknowns),
+        }
+    }
+
     /// All of them.
     pub(crate) fn list(&self) -> &[Measure] {
         &self.list

@@ -35,13 +35,14 @@ use ::dataset::{Code, Dataset, Diagnostic, Function, Header, Severity, Span, Swi
 use mechanics::Owner;
 use mechanics::model::{Element, Label, Model};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 pub(crate) use forces::APPLIED;
-pub(crate) use measures::Measures;
+pub(crate) use measures::{Measures, Numbering};
 pub(crate) use outputs::{Column, Outputs, Unit};
 
 /// The analysis that functions are lowered for: what MODE gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Mode {
     /// Kinematics: motion without degrees of freedom.
     Kinematic,

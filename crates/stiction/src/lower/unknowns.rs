@@ -1,5 +1,6 @@
 //! The algebraic variables of a model: what functions read that is solved together with the motion.
 
+use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
 use dataset::Code;
@@ -11,7 +12,7 @@ use super::expression::{Compiler, Reads, variables_of};
 use super::{Lowering, label};
 
 /// An algebraic variable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(super) enum Unknown {
     /// A VARIABLE that depends on itself, by its id.
     Variable(u32),
@@ -31,6 +32,20 @@ pub(super) struct Unknowns {
 }
 
 impl Unknowns {
+    /// All of them.
+    pub(super) fn list(&self) -> &[Unknown] {
+        &self.list
+    }
+
+    /// These ones.
+    pub(super) fn of_list(list: &[Unknown]) -> Self {
+        let places = list.iter().enumerate();
+        Self {
+            list: list.to_vec(),
+            places: places.map(|(place, unknown)| (*unknown, place)).collect(),
+        }
+    }
+
     /// Place of an unknown, a new one where there is none yet.
     pub(super) fn place(&mut self, unknown: Unknown) -> usize {
         *self.places.entry(unknown).or_insert_with(|| {

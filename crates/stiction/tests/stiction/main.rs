@@ -28,6 +28,7 @@ mod lowering;
 mod machines;
 mod run_time;
 mod runs;
+mod saving;
 mod shared;
 mod statics;
 mod table;
