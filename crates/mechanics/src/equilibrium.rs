@@ -19,7 +19,7 @@
 //! bristles of LuGre keep their deflection, as any deflection is steady at rest.
 
 use nalgebra::Vector3;
-use numerics::linear::{Matrix, SparseLu};
+use numerics::linear::{FrontalLu, Matrix};
 
 use crate::instant::Failure;
 use crate::model::{Element, Law, Level};
@@ -64,7 +64,7 @@ const SATURATED: f64 = 0.99;
 /// Storage of the iteration.
 pub(crate) struct Statics {
     matrix: Matrix,
-    factors: SparseLu,
+    factors: FrontalLu,
     right: Vec<f64>,
     change: Vec<f64>,
     next: Vec<f64>,
@@ -83,7 +83,7 @@ impl Statics {
         let size = system.unknown_count();
         Self {
             matrix: Matrix::new(size),
-            factors: SparseLu::new(),
+            factors: FrontalLu::new(system.elimination_groups()),
             right: vec![0.0; size],
             change: vec![0.0; size],
             next: vec![0.0; size],

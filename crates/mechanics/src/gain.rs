@@ -12,7 +12,7 @@
 //! still have a solution, with which no machine moves; so it is reported, never integrated.
 
 use nalgebra::DMatrix;
-use numerics::linear::{Matrix, SparseLu};
+use numerics::linear::{FrontalLu, Matrix};
 
 use crate::instant::Failure;
 use crate::joint_friction::{Memory, Share};
@@ -39,7 +39,7 @@ const LONGEST_INTERVAL: f64 = 1000.0;
 #[derive(Clone, Debug)]
 pub(crate) struct GainWatch {
     matrix: Matrix,
-    factors: SparseLu,
+    factors: FrontalLu,
     zero: Vec<f64>,
     right: Vec<f64>,
     gains: DMatrix<f64>,
@@ -54,7 +54,7 @@ impl GainWatch {
         let frictions = system.model.frictions.len();
         Self {
             matrix: Matrix::new(size),
-            factors: SparseLu::new(),
+            factors: FrontalLu::new(system.elimination_groups()),
             zero: vec![0.0; n],
             right: vec![0.0; size],
             gains: DMatrix::zeros(frictions, frictions),

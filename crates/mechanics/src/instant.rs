@@ -1,6 +1,6 @@
 //! Accelerations, reactions and friction of one instant, and the return to the constraints.
 
-use numerics::linear::{Matrix, Singular, SparseLu};
+use numerics::linear::{FrontalLu, Matrix, Singular};
 
 use crate::constraint::Owner;
 use crate::model::{Label, Level};
@@ -74,7 +74,7 @@ enum Place {
 #[derive(Clone, Debug)]
 pub(crate) struct Instant {
     matrix: Matrix,
-    factors: SparseLu,
+    factors: FrontalLu,
     right: Vec<f64>,
     force: Vec<f64>,
     momentum: Vec<f64>,
@@ -89,7 +89,7 @@ impl Instant {
         let size = system.unknown_count();
         Self {
             matrix: Matrix::new(size),
-            factors: SparseLu::new(),
+            factors: FrontalLu::new(system.elimination_groups()),
             right: vec![0.0; size],
             force: vec![0.0; n],
             momentum: vec![0.0; n],

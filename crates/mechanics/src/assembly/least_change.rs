@@ -1,6 +1,6 @@
 //! The smallest change that meets linear equations.
 
-use numerics::linear::{Matrix, Singular, SparseLu};
+use numerics::linear::{FrontalLu, Matrix, Singular};
 
 use super::rows::Row;
 
@@ -12,16 +12,20 @@ pub(super) struct Least {
     n: usize,
     rows: usize,
     matrix: Matrix,
-    factors: SparseLu,
+    factors: FrontalLu,
 }
 
 impl Least {
-    pub(super) fn new(n: usize, rows: usize) -> Self {
+    /// For the motions of `bodies` bodies and equations that are eliminated with the bodies given.
+    pub(super) fn new(bodies: usize, with: &[Option<u32>]) -> Self {
+        let (n, rows) = (6 * bodies, with.len());
+        let mut groups: Vec<Option<u32>> = (0..n).map(|motion| Some(motion as u32 / 6)).collect();
+        groups.extend_from_slice(with);
         Self {
             n,
             rows,
             matrix: Matrix::new(n + rows),
-            factors: SparseLu::new(),
+            factors: FrontalLu::new(groups),
         }
     }
 

@@ -189,7 +189,7 @@ impl System {
         length: f64,
     ) -> Result<usize, AssemblyError> {
         let n = self.velocity_count();
-        let mut least = Least::new(n, self.row_count() + starts.len());
+        let mut least = self.least_change(starts);
         let mut regularisation = REGULARISATION;
         let mut best = f64::INFINITY;
         let mut kept = state.clone();
@@ -239,6 +239,13 @@ impl System {
         Err(AssemblyError::Inconsistent { given, unmet })
     }
 
+    /// Solver for the equations in force and the initial conditions.
+    fn least_change(&self, starts: &[Start]) -> Least {
+        let mut with = self.bodies_of_rows();
+        with.resize(with.len() + starts.len(), None);
+        Least::new(self.model.bodies.len(), &with)
+    }
+
     fn assemble_velocities(
         &mut self,
         state: &mut State,
@@ -262,7 +269,7 @@ impl System {
             .filter(|(k, _)| k % 6 < 3)
             .for_each(|(_, v)| *v /= length);
         let right: Vec<f64> = rows.iter().map(|row| row.rate).collect();
-        let mut least = Least::new(n, rows.len());
+        let mut least = self.least_change(starts);
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let size = largest(&wanted).max(largest(&right));
         let solve = |least: &mut Least, wanted: &[f64], right: &[f64]| {

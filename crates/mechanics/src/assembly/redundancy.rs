@@ -76,7 +76,7 @@ impl System {
                 touched[joint] = true;
             }
         };
-        let mut least = Least::new(n, kept.len());
+        let mut least = Least::new(self.model.bodies.len(), &self.bodies_of_rows());
         for &(place, row) in &dropped {
             touch(place);
             // The dropped row as a combination of kept ones: rest + Gᵀ c = row, G rest = 0.

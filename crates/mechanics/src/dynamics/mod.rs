@@ -33,7 +33,7 @@ mod positions;
 mod quadrature;
 
 use numerics::bdf;
-use numerics::linear::{Matrix, SparseLu};
+use numerics::linear::{FrontalLu, Matrix};
 use serde::{Deserialize, Serialize};
 
 use crate::instant::Failure;
@@ -154,7 +154,7 @@ pub(crate) struct Dynamics {
     right: Vec<f64>,
     position_right: Vec<f64>,
     matrix: Matrix,
-    factors: SparseLu,
+    factors: FrontalLu,
     /// γ of the factored matrix, none before the first.
     factored: Option<f64>,
     rate: f64,
@@ -198,7 +198,7 @@ impl Dynamics {
             right: vec![0.0; size],
             position_right: vec![0.0; size],
             matrix: Matrix::new(size),
-            factors: SparseLu::new(),
+            factors: FrontalLu::new(system.elimination_groups()),
             factored: None,
             rate: 0.0,
             system,

@@ -25,6 +25,7 @@
 mod accelerations;
 mod bristles;
 mod elements;
+mod elimination;
 mod evaluation;
 mod force_components;
 mod forces;

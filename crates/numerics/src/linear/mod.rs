@@ -1,15 +1,19 @@
 //! Matrices assembled in a fixed order, and their factorisation.
 //!
-//! [`Matrix`] is sparse with a pattern found once; [`SparseLu`] analyses that pattern once and
-//! refactors many times. A dense LU is the oracle that the tests compare with.
+//! [`Matrix`] is sparse with a pattern found once; [`FrontalLu`] orders that pattern once and factors
+//! many times, with pivots chosen anew each time. A dense LU is the oracle that the tests compare with.
 
 #[cfg(test)]
 mod dense;
+mod frontal;
+#[cfg(test)]
+mod frontal_test;
+mod fronts;
 mod matrix;
-mod sparse;
+mod ordering;
 
+pub use frontal::FrontalLu;
 pub use matrix::Matrix;
-pub use sparse::SparseLu;
 
 /// A factorisation met no usable pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

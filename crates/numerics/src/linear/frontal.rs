@@ -1,0 +1,424 @@
+//! Multifrontal LU of unsymmetric matrices with partial pivoting and delayed pivots.
+//!
+//! Groups of unknowns are eliminated one after the other, each in a dense front of its rows and
+//! columns and of those that they are coupled with; what is left of these is added to the front that
+//! eliminates the first of them (Duff and Reid, *The multifrontal solution of unsymmetric sets of linear
+//! equations*, SIAM J. Sci. Stat. Comput. 5, 1984). The tree of fronts is found once for a pattern.
+//!
+//! Pivots are chosen anew at every factorisation among the entries that a front has complete. Where
+//! none of a column is large enough beside the others of that column (a body without mass, equations of
+//! a loop before the loop is closed), column and a row are left to the next front. Only the last front
+//! of a tree has to find a pivot for all: where it cannot, the matrix is singular.
+
+use super::fronts::Fronts;
+use super::{Matrix, Singular};
+
+/// A pivot must reach this part of the largest entry of its column: small enough that mechanisms seldom
+/// delay one, large enough that rounding grows little.
+const THRESHOLD: f64 = 5e-3;
+/// After scaling, entries below this are no pivots at all.
+const SMALLEST_PIVOT: f64 = 1e-13;
+
+/// A front as it was eliminated last.
+#[derive(Clone, Copy, Debug)]
+struct Eliminated {
+    /// Number of pivots found.
+    pivots: usize,
+    /// Number of rows that could have been pivot rows.
+    complete: usize,
+    /// Number of rows.
+    size: usize,
+    /// Where its rows and columns start in the lists of these.
+    ids: usize,
+    /// Where its factors start.
+    factors: usize,
+}
+
+/// What a front leaves to its parent.
+#[derive(Clone, Copy, Debug)]
+struct Rest {
+    front: usize,
+    /// Where the values start in the stack.
+    values: usize,
+}
+
+/// Factors of a [`Matrix`] whose pattern stays the same between factorisations.
+///
+/// ```
+/// use numerics::linear::{FrontalLu, Matrix};
+/// let mut a = Matrix::new(2);
+/// a.start();
+/// a.add(0, 1, 2.0);
+/// a.add(1, 0, 4.0);
+/// a.add(1, 1, 1.0);
+/// a.compress();
+/// let mut lu = FrontalLu::new(vec![Some(0), Some(0)]);
+/// lu.factor(&a).unwrap();
+/// let mut x = [2.0, 5.0];
+/// lu.solve(&mut x);
+/// assert_eq!(x, [1.0, 1.0]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct FrontalLu {
+    groups: Vec<Option<u32>>,
+    /// None before the first factorisation.
+    fronts: Option<Fronts>,
+    eliminated: Vec<Eliminated>,
+    /// Rows and columns of every front: pivots first, in their order, then what is left.
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+    /// By front: the columns of its pivots (upper factor, inverse pivot, multipliers), and of its border
+    /// the part in the pivot rows.
+    factors: Vec<f64>,
+    row_scale: Vec<f64>,
+    /// The front in work, column by column.
+    dense: Vec<f64>,
+    /// Scales of its rows.
+    scales: Vec<f64>,
+    places: Vec<usize>,
+    rests: Vec<Rest>,
+    rest_values: Vec<f64>,
+    delayed: usize,
+    /// Right-hand side by row, and the part of it that a front works on.
+    work: Vec<f64>,
+    local: Vec<f64>,
+}
+
+impl FrontalLu {
+    /// No factors yet. `groups` says for every unknown (and the equation of the same number) with which
+    /// group it is eliminated; one without a group goes with the last of the groups that it is coupled
+    /// with. A group should have a regular block of its own, or nearly so, on the diagonal.
+    #[must_use]
+    pub fn new(groups: Vec<Option<u32>>) -> Self {
+        let n = groups.len();
+        Self {
+            groups,
+            fronts: None,
+            eliminated: Vec::new(),
+            rows: Vec::new(),
+            columns: Vec::new(),
+            factors: Vec::new(),
+            row_scale: vec![1.0; n],
+            dense: Vec::new(),
+            scales: Vec::new(),
+            places: Vec::new(),
+            rests: Vec::new(),
+            rest_values: Vec::new(),
+            delayed: 0,
+            work: vec![0.0; n],
+            local: Vec::new(),
+        }
+    }
+
+    /// Entries in the factors.
+    #[must_use]
+    pub fn fill(&self) -> usize {
+        self.factors.len()
+    }
+
+    /// How often the last factorisation left a pivot to the next front.
+    #[must_use]
+    pub fn delayed(&self) -> usize {
+        self.delayed
+    }
+
+    /// Factors `matrix`, which must have the pattern of the first one.
+    ///
+    /// # Errors
+    /// [`Singular`] with a dependent row and column, numbered as in `matrix`. The factors are then
+    /// unusable.
+    ///
+    /// # Panics
+    /// When the matrix does not have as many rows as there are groups given.
+    pub fn factor(&mut self, matrix: &Matrix) -> Result<(), Singular> {
+        assert_eq!(
+            matrix.size(),
+            self.groups.len(),
+            "every unknown must have a group"
+        );
+        self.scale(matrix)?;
+        let fronts = match self.fronts.take() {
+            Some(fronts) => fronts,
+            None => Fronts::new(matrix, &self.groups),
+        };
+        self.eliminated.clear();
+        self.rows.clear();
+        self.columns.clear();
+        self.factors.clear();
+        self.rests.clear();
+        self.rest_values.clear();
+        self.delayed = 0;
+        let mut singular = None;
+        for number in 0..fronts.fronts.len() {
+            let gathered = self.gather(&fronts, number, matrix);
+            let values = self.rest_values.len();
+            let front = self.eliminate(gathered);
+            self.eliminated.push(front);
+            if front.complete < front.size {
+                self.rests.push(Rest {
+                    front: number,
+                    values,
+                });
+            } else if front.pivots < front.size {
+                // There is no parent that could find further pivots.
+                singular = Some(Singular {
+                    row: self.rows[front.ids + front.pivots] as usize,
+                    column: self.columns[front.ids + front.pivots] as usize,
+                });
+                break;
+            }
+        }
+        self.fronts = Some(fronts);
+        singular.map_or(Ok(()), Err)
+    }
+
+    /// The largest entry of every row, relative to which its pivots count: units differ by row.
+    fn scale(&mut self, matrix: &Matrix) -> Result<(), Singular> {
+        for (row, scale) in self.row_scale.iter_mut().enumerate() {
+            let entries = matrix.row_starts()[row]..matrix.row_starts()[row + 1];
+            let values = &matrix.values()[entries.clone()];
+            let largest = largest(values);
+            if !largest.is_finite() {
+                let bad = values.iter().position(|a| !a.is_finite());
+                let column = matrix.columns()[entries.start + bad.unwrap_or(0)] as usize;
+                return Err(Singular { row, column });
+            }
+            *scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        }
+        Ok(())
+    }
+
+    /// Adds up a front, from entries of the matrix and what its children left; returns its size.
+    fn gather(&mut self, fronts: &Fronts, number: usize, matrix: &Matrix) -> Eliminated {
+        let front = &fronts.fronts[number];
+        let (own, border) =
+            fronts.unknowns[front.first..front.first + front.size].split_at(front.own);
+        let ids = self.rows.len();
+        self.rows.extend_from_slice(own);
+        self.columns.extend_from_slice(own);
+        let first_child = self.rests.len() - front.children;
+        for rest in &self.rests[first_child..] {
+            let child = &self.eliminated[rest.front];
+            let left = child.ids + child.pivots..child.ids + child.complete;
+            self.rows.extend_from_within(left.clone());
+            self.columns.extend_from_within(left);
+        }
+        let complete = self.rows.len() - ids;
+        let late = complete - front.own;
+        self.delayed += late;
+        self.rows.extend_from_slice(border);
+        self.columns.extend_from_slice(border);
+        let size = complete + border.len();
+        // Delayed rows and columns stand between the own ones and the border.
+        let shifted = |place: u32| {
+            let place = place as usize;
+            if place < front.own {
+                place
+            } else {
+                place + late
+            }
+        };
+        self.scales.clear();
+        let rows = self.rows[ids..].iter();
+        self.scales
+            .extend(rows.map(|&row| self.row_scale[row as usize]));
+        self.dense.clear();
+        self.dense.resize(size * size, 0.0);
+        let entries = &fronts.entries[front.entries.clone()];
+        let values = matrix.values();
+        if late == 0 {
+            for entry in entries {
+                self.dense[entry.place as usize] += values[entry.value as usize];
+            }
+        } else {
+            for entry in entries {
+                let (column, row) = (
+                    entry.place / front.size as u32,
+                    entry.place % front.size as u32,
+                );
+                let place = shifted(column) * size + shifted(row);
+                self.dense[place] += values[entry.value as usize];
+            }
+        }
+        let mut next = front.own;
+        for rest in &self.rests[first_child..] {
+            let (child, node) = (&self.eliminated[rest.front], &fronts.fronts[rest.front]);
+            let left = child.complete - child.pivots;
+            self.places.clear();
+            self.places.extend(next..next + left);
+            next += left;
+            let border = &fronts.in_parent[node.first + node.own..node.first + node.size];
+            self.places
+                .extend(border.iter().map(|&place| shifted(place)));
+            let count = self.places.len();
+            let values = &self.rest_values[rest.values..rest.values + count * count];
+            for (&column, values) in self.places.iter().zip(values.chunks_exact(count)) {
+                let into = &mut self.dense[column * size..(column + 1) * size];
+                for (&row, value) in self.places.iter().zip(values) {
+                    into[row] += value;
+                }
+            }
+        }
+        if let Some(first) = self.rests.get(first_child) {
+            self.rest_values.truncate(first.values);
+            self.rests.truncate(first_child);
+        }
+        Eliminated {
+            pivots: 0,
+            complete,
+            size,
+            ids,
+            factors: self.factors.len(),
+        }
+    }
+
+    /// Eliminates a front that was gathered as far as it has pivots, and keeps factors and rest.
+    fn eliminate(&mut self, mut front: Eliminated) -> Eliminated {
+        let n = front.size;
+        while front.pivots < front.complete {
+            let k = front.pivots;
+            let Some((row, column)) = self.pivot(&front) else {
+                break;
+            };
+            if row != k {
+                self.dense.chunks_exact_mut(n).for_each(|c| c.swap(k, row));
+                self.rows.swap(front.ids + k, front.ids + row);
+                self.scales.swap(k, row);
+            }
+            if column != k {
+                let (left, right) = self.dense.split_at_mut(column * n);
+                left[k * n..(k + 1) * n].swap_with_slice(&mut right[..n]);
+                self.columns.swap(front.ids + k, front.ids + column);
+            }
+            let (left, right) = self.dense.split_at_mut((k + 1) * n);
+            let multipliers = &mut left[k * n + k..];
+            let inverse = 1.0 / multipliers[0];
+            multipliers[0] = inverse;
+            let multipliers = &mut multipliers[1..];
+            multipliers.iter_mut().for_each(|m| *m *= inverse);
+            for column in right.chunks_exact_mut(n) {
+                let (head, tail) = column.split_at_mut(k + 1);
+                subtract(tail, head[k], multipliers);
+            }
+            front.pivots += 1;
+        }
+        let (eliminated, left) = self.dense.split_at(front.pivots * n);
+        self.factors.extend_from_slice(eliminated);
+        for column in left.chunks_exact(n) {
+            let (above, rest) = column.split_at(front.pivots);
+            self.factors.extend_from_slice(above);
+            self.rest_values.extend_from_slice(rest);
+        }
+        front
+    }
+
+    /// The next pivot of a front: of the first column that has one, the largest.
+    fn pivot(&self, front: &Eliminated) -> Option<(usize, usize)> {
+        let (k, n) = (front.pivots, front.size);
+        let (own_scales, border_scales) = self.scales.split_at(front.complete);
+        (k..front.complete).find_map(|column| {
+            let (own, border) = self.dense[column * n..(column + 1) * n].split_at(front.complete);
+            let (mut best, mut largest) = (k, 0.0_f64);
+            for (row, (value, scale)) in own.iter().zip(own_scales).enumerate().skip(k) {
+                let size = value.abs() * scale;
+                if size > largest {
+                    (best, largest) = (row, size);
+                }
+            }
+            let least = THRESHOLD.recip() * largest;
+            let mut sizes = border
+                .iter()
+                .zip(border_scales)
+                .map(|(v, scale)| v.abs() * scale);
+            let usable = largest > SMALLEST_PIVOT && sizes.all(|size| size <= least);
+            usable.then_some((best, column))
+        })
+    }
+
+    /// Replaces the right-hand side `b` by the solution.
+    ///
+    /// # Panics
+    /// When `b` does not fit the factored matrix.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        assert_eq!(
+            b.len(),
+            self.work.len(),
+            "the right-hand side must fit the factored matrix"
+        );
+        self.work.copy_from_slice(b);
+        for front in &self.eliminated {
+            let rows = &self.rows[front.ids..front.ids + front.size];
+            self.local.clear();
+            let values = rows.iter().map(|&row| self.work[row as usize]);
+            self.local.extend(values);
+            let factors = &self.factors[front.factors..];
+            for (k, column) in factors
+                .chunks_exact(front.size)
+                .take(front.pivots)
+                .enumerate()
+            {
+                let (head, tail) = self.local.split_at_mut(k + 1);
+                subtract(tail, head[k], &column[k + 1..]);
+            }
+            for (&row, value) in rows.iter().zip(&self.local) {
+                self.work[row as usize] = *value;
+            }
+        }
+        for front in self.eliminated.iter().rev() {
+            let ids = front.ids..front.ids + front.size;
+            let (rows, columns) = (&self.rows[ids.clone()], &self.columns[ids]);
+            let (own, border) = columns.split_at(front.pivots);
+            self.local.clear();
+            let values = rows[..front.pivots]
+                .iter()
+                .map(|&row| self.work[row as usize]);
+            self.local.extend(values);
+            let (first, last) = self.factors[front.factors..].split_at(front.pivots * front.size);
+            for (&column, above) in border.iter().zip(last.chunks_exact(front.pivots.max(1))) {
+                subtract(&mut self.local, b[column as usize], above);
+            }
+            for (k, above) in first.chunks_exact(front.size).enumerate().rev() {
+                let (head, tail) = self.local.split_at_mut(k);
+                tail[0] *= above[k];
+                subtract(head, tail[0], &above[..k]);
+            }
+            for (&column, value) in own.iter().zip(&self.local) {
+                b[column as usize] = *value;
+            }
+        }
+    }
+}
+
+/// The largest magnitude, and not a number where a value is not finite; in four lanes, which the
+/// processor works on side by side.
+fn largest(values: &[f64]) -> f64 {
+    let (heads, tail) = values.as_chunks::<4>();
+    let mut largest = [0.0_f64; 4];
+    // Zero, unless a value is not finite.
+    let mut check = [0.0_f64; 4];
+    let mut take = |lane: usize, value: f64| {
+        let size = value.abs();
+        largest[lane] = if size > largest[lane] {
+            size
+        } else {
+            largest[lane]
+        };
+        check[lane] += 0.0 * value;
+    };
+    for chunk in heads {
+        for lane in 0..4 {
+            take(lane, chunk[lane]);
+        }
+    }
+    tail.iter().for_each(|&value| take(0, value));
+    largest.iter().fold(0.0, |m: f64, l| m.max(*l)) + check.iter().sum::<f64>()
+}
+
+/// Takes a multiple of `b` off `a`.
+fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
+    if factor != 0.0 {
+        for (a, b) in a.iter_mut().zip(b) {
+            *a -= factor * b;
+        }
+    }
+}
