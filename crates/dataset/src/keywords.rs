@@ -22,6 +22,8 @@ pub(crate) enum Kind {
     Id,
     /// Positive whole numbers.
     Ids,
+    /// Positive whole numbers, or ALL.
+    IdsOrAll,
     /// One name.
     Word,
     /// Names with `:` or `,` between them, brackets round them allowed.
@@ -43,7 +45,13 @@ impl Kind {
     pub(crate) const fn is_numeric(self) -> bool {
         matches!(
             self,
-            Self::Real | Self::Reals(..) | Self::RealsEach | Self::Integer | Self::Id | Self::Ids
+            Self::Real
+                | Self::Reals(..)
+                | Self::RealsEach
+                | Self::Integer
+                | Self::Id
+                | Self::Ids
+                | Self::IdsOrAll
         )
     }
 }

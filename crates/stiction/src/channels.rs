@@ -279,8 +279,7 @@ fn requests(
     layout: &mut Layout,
 ) -> Vec<Request> {
     let mut heads = Vec::new();
-    for output in &outputs.requests {
-        let request = &dataset.requests[output.place];
+    for (output, request) in outputs.requests.iter().zip(dataset.all_requests()) {
         let own = name(&request.header, "REQUEST");
         let result_set = request.results_name.clone().filter(|name| !name.is_empty());
         let components: Vec<Component> = output

@@ -66,6 +66,7 @@ pub fn check(project: &Project) -> Result<CheckReport, InputError> {
         ("LSE", dataset.linear_equations.len()),
         ("TFSISO", dataset.transfer_functions.len()),
         ("REQUEST", dataset.requests.len()),
+        ("MREQUEST", dataset.multiple_requests.len()),
         ("SENSOR", dataset.sensors.len()),
     ];
     let mut report = CheckReport {

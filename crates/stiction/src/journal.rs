@@ -166,7 +166,7 @@ impl<'p, W: Write> Journal<'p, W> {
             forces,
             model.frictions.len(),
             dataset.variables.len(),
-            dataset.requests.len(),
+            dataset.all_requests().len(),
         ))?;
         for line in defaults_in_use(dataset) {
             self.note(&line.to_string())?;

@@ -44,6 +44,7 @@ impl Parser<'_, '_> {
             Kind::Integer => self.integers(name, 0, true),
             Kind::Id => self.integers(name, 1, true),
             Kind::Ids => self.integers(name, 1, false),
+            Kind::IdsOrAll => self.integers_or_all(name),
             Kind::Word => self.words(name, false),
             Kind::Words => self.words(name, true),
             Kind::Strings => self.strings(),
@@ -228,6 +229,16 @@ impl Parser<'_, '_> {
         } else {
             what
         }
+    }
+
+    fn integers_or_all(&mut self, name: &str) -> Result<Value, Refused> {
+        if self.kind(self.at) != Some(TokenKind::Word) {
+            return self.integers(name, 1, false);
+        }
+        if !self.slice(self.at).eq_ignore_ascii_case("ALL") {
+            return Err(self.expected(name, "ALL or numbers of elements"));
+        }
+        self.words(name, false)
     }
 
     fn words(&mut self, name: &str, several: bool) -> Result<Value, Refused> {

@@ -7,6 +7,7 @@ mod expressions;
 mod friction;
 pub(crate) mod inertia;
 mod linear_systems;
+mod multiple_requests;
 pub(crate) mod references;
 
 pub(crate) use expressions::named_markers;
@@ -32,6 +33,7 @@ pub(crate) fn elements(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     curves::check(dataset, diagnostics);
     expressions::check_all(dataset, diagnostics);
     linear_systems::check(dataset, diagnostics);
+    multiple_requests::check(dataset, diagnostics);
 }
 
 /// Exactly one part is the ground.

@@ -376,6 +376,15 @@ impl<'a> Reader<'a> {
             Kind::Ids => Value::Integers(
                 self.each(raw, path, |reader, raw, path| reader.integer(raw, 1, path))?,
             ),
+            Kind::IdsOrAll => match self.array(raw, path)?.first() {
+                Some(first) if first.get().starts_with('"') => {
+                    Value::Words(self.each(raw, path, Self::string)?)
+                }
+                _ => {
+                    let kind = Kind::Ids;
+                    self.value(&Keyword { kind, ..*keyword }, raw, path)?
+                }
+            },
             Kind::Word => Value::Word(self.string(raw, path)?),
             Kind::Words => Value::Words(self.each(raw, path, Self::string)?),
             Kind::Text => Value::Text(self.string(raw, path)?),

@@ -192,6 +192,9 @@ fn value(keyword: &Keyword) -> Value {
         Kind::Integer => json!({ "type": "integer", "minimum": 0, "maximum": u32::MAX }),
         Kind::Id => reference("id"),
         Kind::Ids => list(&reference("id")),
+        Kind::IdsOrAll => json!({
+            "oneOf": [list(&reference("id")), list(&json!({ "const": "ALL" }))],
+        }),
         Kind::Word | Kind::Text => json!({ "type": "string" }),
         Kind::Words | Kind::Strings => list(&json!({ "type": "string" })),
         Kind::Expression => reference("expression"),

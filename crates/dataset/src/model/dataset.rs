@@ -3,9 +3,10 @@
 use super::{
     Array, Beam, Bushing, Contact, Coupler, Curve, DifferentialEquation, Elements, Equilibrium,
     Field, Friction, Gear, GeneralConstraint, Graphics, InitialConditions, Integrator, Joint,
-    JointPrimitive, Kinematics, LinearStateEquations, Marker, Matrix, Motion, OutputOptions, Part,
-    PlantPort, PointCurve, PointMass, Preferences, Request, ResultsOptions, Sensor, SingleForce,
-    Spline, SpringDamper, Switchable, Text, Texts, TransferFunction, Units, Variable, VectorForce,
+    JointPrimitive, Kinematics, LinearStateEquations, Marker, Matrix, Motion, MultipleRequest,
+    OutputOptions, Part, PlantPort, PointCurve, PointMass, Preferences, Request, ResultsOptions,
+    Sensor, SingleForce, Spline, SpringDamper, Switchable, Text, Texts, TransferFunction, Units,
+    Variable, VectorForce,
 };
 use std::collections::BTreeSet;
 
@@ -84,6 +85,8 @@ pub struct Dataset {
     pub plant_outputs: Elements<PlantPort>,
     /// REQUEST.
     pub requests: Elements<Request>,
+    /// MREQUEST.
+    pub multiple_requests: Elements<MultipleRequest>,
     /// SENSOR.
     pub sensors: Elements<Sensor>,
     /// FRICTION.

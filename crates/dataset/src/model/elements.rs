@@ -135,6 +135,7 @@ elements!(
     super::TransferFunction,
     super::PlantPort,
     super::Request,
+    super::MultipleRequest,
     super::Sensor,
     super::Graphics,
     super::Friction,

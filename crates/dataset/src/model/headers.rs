@@ -47,6 +47,7 @@ impl Dataset {
             "PINPUT" => &self.plant_inputs.by_id(id)?.header,
             "POUTPUT" => &self.plant_outputs.by_id(id)?.header,
             "REQUEST" => &self.requests.by_id(id)?.header,
+            "MREQUEST" => &self.multiple_requests.by_id(id)?.header,
             "SENSOR" => &self.sensors.by_id(id)?.header,
             "FRICTION" => &self.frictions.by_id(id)?.header,
             "GRAPHICS" => &self.graphics.by_id(id)?.header,

@@ -19,6 +19,7 @@ mod headers;
 mod joint;
 mod linear_system;
 mod motion;
+mod multiple_request;
 mod part;
 mod request;
 mod sensor;
@@ -53,6 +54,7 @@ pub use joint::{
 };
 pub use linear_system::{LinearStateEquations, TransferFunction};
 pub use motion::{Motion, MotionDirection, MotionLevel, MotionTarget};
+pub use multiple_request::{MultipleRequest, Reported};
 pub use part::{Exact, Marker, MarkerOwner, Orientation, Part, PointMass};
 pub use request::{Graphics, Request, RequestKind};
 pub use sensor::{Comparison, Sensor};

@@ -11,6 +11,7 @@ mod friction;
 mod joint;
 mod linear_system;
 mod motion;
+mod multiple_request;
 mod part;
 mod request;
 mod sensor;

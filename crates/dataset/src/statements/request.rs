@@ -41,14 +41,17 @@ pub(super) const KEYWORDS: &[Keyword] = &[
 
 const FUNCTIONS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
 
+/// What is reported of two markers, by the flags of REQUEST and MREQUEST.
+pub(super) const STANDARD: [(&str, fn() -> RequestKind); 4] = [
+    ("DISPLACEMENT", || RequestKind::Displacement),
+    ("VELOCITY", || RequestKind::Velocity),
+    ("ACCELERATION", || RequestKind::Acceleration),
+    ("FORCE", || RequestKind::Force),
+];
+
 /// REQUEST. One that only calls a subroutine reports nothing.
 pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
-    let standard = reading.one_flag(&[
-        ("DISPLACEMENT", 0),
-        ("VELOCITY", 1),
-        ("ACCELERATION", 2),
-        ("FORCE", 3),
-    ]);
+    let standard = reading.one_flag(&STANDARD);
     let kind = match standard {
         Some(kind) => {
             for function in FUNCTIONS.into_iter().chain(["VARIABLES"]) {
@@ -62,12 +65,7 @@ pub(super) fn request(reading: &mut Reading, builder: &mut Builder) {
                 }
             }
             reading.require("I");
-            match kind {
-                0 => RequestKind::Displacement,
-                1 => RequestKind::Velocity,
-                2 => RequestKind::Acceleration,
-                _ => RequestKind::Force,
-            }
+            kind()
         }
         None => {
             let mut functions = FUNCTIONS.map(|function| reading.expression(function));

@@ -3,7 +3,8 @@
 use super::Builder;
 use super::{
     array, contact, coupler, curve, differential, elastic, force, friction, joint, linear_system,
-    motion, part, request, sensor, settings, spline, units, variable, vector_force,
+    motion, multiple_request, part, request, sensor, settings, spline, units, variable,
+    vector_force,
 };
 use crate::keywords::Keyword;
 use crate::names::Name;
@@ -173,6 +174,12 @@ pub(crate) const STATEMENTS: &[Rule] = &[
         variable::plant_output,
     ),
     read("REQUEST", "R", request::KEYWORDS, request::request),
+    read(
+        "MREQUEST",
+        "MR",
+        multiple_request::KEYWORDS,
+        multiple_request::multiple_request,
+    ),
     read("SENSOR", "SE", sensor::KEYWORDS, sensor::sensor),
     read("FRICTION", "FRI", friction::KEYWORDS, friction::friction),
     Rule {
@@ -239,10 +246,6 @@ pub(crate) const STATEMENTS: &[Rule] = &[
     ignored(
         "PSTATE",
         "stiction chooses the coordinates of linear models",
-    ),
-    ignored(
-        "MREQUEST",
-        "it only reports; write a REQUEST for each element",
     ),
     unsupported("ADAMS_BUSHING", "ADAMS_BUSHING", LIKE),
     unsupported("CVCV", "CVCV", SURFACES),

@@ -50,8 +50,6 @@ pub(crate) enum Unit {
 pub(crate) struct RequestOutput {
     /// Id in the dataset.
     pub(crate) id: u32,
-    /// Place in the dataset.
-    pub(crate) place: usize,
     /// The columns: magnitude and three components, twice.
     pub(crate) columns: [Option<Column>; 8],
 }
@@ -65,7 +63,7 @@ pub(crate) struct Outputs {
     pub(crate) results: Vec<ResultSource>,
     /// Value of each variable, in the order of the dataset.
     pub(crate) variables: Vec<Register>,
-    /// The requests, in the order of the dataset.
+    /// The requests, in the order of [`dataset::Dataset::all_requests`].
     pub(crate) requests: Vec<RequestOutput>,
     /// What each sensor watches, in the order of the dataset.
     pub(crate) sensors: Vec<Program>,
@@ -91,12 +89,10 @@ impl Lowering<'_> {
                 outputs.variables.push(value);
             }
         }
-        for (place, request) in dataset.requests.iter().enumerate() {
-            let columns = self.request(&mut compiler, request);
+        for request in dataset.all_requests() {
             outputs.requests.push(RequestOutput {
                 id: request.header.id,
-                place,
-                columns,
+                columns: self.request(&mut compiler, &request),
             });
         }
         for sensor in &dataset.sensors {

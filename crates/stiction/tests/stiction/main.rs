@@ -26,6 +26,7 @@ mod jumps;
 mod linear_systems;
 mod lowering;
 mod machines;
+mod requests;
 mod run_time;
 mod runs;
 mod saving;
