@@ -209,7 +209,7 @@ impl Loader {
             dataset,
             source.name(),
             &mut Measures::default(),
-            Mode::Dynamic,
+            &Mode::Dynamic.into(),
         );
         let diagnostics = lowered.err().unwrap_or_default();
         let unsupported = diagnostics.into_iter().filter(|diagnostic| {

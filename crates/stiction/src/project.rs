@@ -201,7 +201,7 @@ impl Project {
     pub(crate) fn as_given(&self) -> Result<mechanics::Simulation, InputError> {
         let source = self.model_source().name();
         let measures = &mut Measures::default();
-        let lowered = lower(&self.dataset, source, measures, Mode::Dynamic);
+        let lowered = lower(&self.dataset, source, measures, &Mode::Dynamic.into());
         let lowered = lowered.map_err(|diagnostics| self.refused(diagnostics))?;
         Ok(mechanics::Simulation::new(
             lowered.model,

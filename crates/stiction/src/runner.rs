@@ -1,6 +1,6 @@
 //! A run: commands carried out one by one, results written as they come.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -16,13 +16,13 @@ use crate::eigensolution::ModeReport;
 use crate::failure;
 use crate::journal::Journal;
 use crate::listing;
-use crate::lower::{Lowered, Measures, Mode, lower};
+use crate::lower::{Lowered, Measures, Mode, Setting, lower};
 use crate::message::Message;
 use crate::project::{Project, SourcedCommand, second};
 use crate::recorder::{Observe, Recorder, ResultFiles, Stop};
 use crate::report;
 use crate::saved_system::SavedSystem;
-use crate::sensors::{Effect, Sensing, Sensors};
+use crate::sensors::{Effect, Keeping, Sensing, Sensors};
 use crate::session::{FailedCommand, Outcome, OutputError, RunOptions, RunReport, Session, Watch};
 use crate::settings::{self, TimeSpan};
 
@@ -42,6 +42,8 @@ pub(crate) struct Runner<'a> {
     pub(crate) buffers: HashMap<String, SavedSystem>,
     pub(crate) measures: Measures,
     pub(crate) lowered: Lowered,
+    /// What sensors have kept.
+    pub(crate) kept: BTreeMap<u32, f64>,
     /// Whether the dataset has changed since it was lowered.
     pub(crate) changed: bool,
     pub(crate) simulation: Simulation,
@@ -124,7 +126,7 @@ impl<'a> Runner<'a> {
         let dataset = project.dataset().clone();
         let mut measures = session.measures.clone();
         let source = project.model_source().name();
-        let lowered = lower(&dataset, source, &mut measures, Mode::Dynamic);
+        let lowered = lower(&dataset, source, &mut measures, &Mode::Dynamic.into());
         let lowered = lowered.map_err(|diagnostics| {
             // The survey has lowered the same dataset.
             OutputError::new(source, &format!("{} errors", diagnostics.len()))
@@ -157,6 +159,7 @@ impl<'a> Runner<'a> {
             changes_made: "\n".to_owned(),
             buffers: HashMap::new(),
             measures,
+            kept: BTreeMap::new(),
             changed: false,
             simulation,
             assembled: false,
@@ -346,7 +349,8 @@ impl<'a> Runner<'a> {
             return Ok(());
         }
         let source = self.session.project.model_source().name();
-        let lowered = lower(&self.dataset, source, &mut self.measures, mode);
+        let setting = self.setting(mode);
+        let lowered = lower(&self.dataset, source, &mut self.measures, &setting);
         let lowered = lowered.map_err(|diagnostics| {
             let text: Vec<String> = diagnostics.into_iter().map(|d| d.message).collect();
             Halt::refused(&text.join("; "))
@@ -367,6 +371,14 @@ impl<'a> Runner<'a> {
         // Where there are none the simulation that follows says so.
         let _ = self.simulation.solve_instant();
         self.log_assembly(&assembly)
+    }
+
+    /// What functions of an analysis read beside the motion.
+    pub(crate) fn setting(&self, mode: Mode) -> Setting {
+        Setting {
+            mode,
+            kept: self.kept.clone(),
+        }
     }
 
     fn assemble(&mut self) -> Result<(), Halt> {
@@ -438,42 +450,63 @@ impl<'a> Runner<'a> {
         self.log.begin(kind, &choice.settings, &notes, start)?;
         self.recorder
             .begin_motion(kind, &self.simulation.snapshot())?;
-        let (end, times) = (span.end, span.outputs(start));
-        let rows = Observe {
-            recorder: &mut self.recorder,
-            log: &mut self.log,
-            watch,
-            started: self.started,
-            end: self.last_end,
-            next_row: start,
-            row_interval: (end - start) / TABLE_ROWS,
-            length: self.length,
-            stop: None,
-            interrupted: false,
-        };
-        let mut observer = Sensing {
-            rows,
-            sensors: &mut Sensors::new(&self.dataset, &self.lowered.outputs),
-            effect: Effect::None,
-        };
-        let ran = self
-            .simulation
-            .run(end, &times, &choice.settings, &mut observer);
-        let Sensing { rows, effect, .. } = observer;
-        if let Some(stop) = rows.stop {
-            return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
-        }
-        match ran {
-            Ok(Ending::Stopped) if rows.interrupted => {
-                return Err(Halt::Ended(Outcome::Interrupted));
+        let times = span.outputs(start);
+        let mut times = times.as_slice();
+        let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);
+        let mut next_row = start;
+        let effect = loop {
+            let rows = Observe {
+                recorder: &mut self.recorder,
+                log: &mut self.log,
+                watch,
+                started: self.started,
+                end: self.last_end,
+                next_row,
+                row_interval: (span.end - start) / TABLE_ROWS,
+                length: self.length,
+                stop: None,
+                interrupted: false,
+            };
+            let mut observer = Sensing {
+                rows,
+                sensors: &mut sensors,
+                effect: Effect::None,
+                keeping: Keeping::new(&self.lowered, &mut self.kept),
+            };
+            let ran = self
+                .simulation
+                .run(span.end, times, &choice.settings, &mut observer);
+            let Sensing {
+                rows,
+                effect,
+                keeping,
+                ..
+            } = observer;
+            self.changed |= keeping.changes_functions;
+            next_row = rows.next_row;
+            if let Some(stop) = rows.stop {
+                return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
             }
-            Ok(Ending::Completed | Ending::Stopped) => {}
-            Err(error) => {
-                let source = self.session.project.model_source();
-                let message = failure::of_run(&self.dataset, source, &error);
-                return Err(Halt::located(Outcome::IntegrationFailed, &message));
+            match ran {
+                Ok(Ending::Stopped) if rows.interrupted => {
+                    return Err(Halt::Ended(Outcome::Interrupted));
+                }
+                Ok(Ending::Completed | Ending::Stopped) => {}
+                Err(error) => {
+                    let source = self.session.project.model_source();
+                    let message = failure::of_run(&self.dataset, source, &error);
+                    return Err(Halt::located(Outcome::IntegrationFailed, &message));
+                }
             }
-        }
+            // Functions that read what a sensor has just kept are other ones from here on.
+            let now = self.simulation.state().time;
+            times = &times[times.partition_point(|time| *time <= now)..];
+            if effect != Effect::None || times.is_empty() {
+                break effect;
+            }
+            self.take_changes(self.lowered.mode)?;
+            sensors.renew(&self.lowered.outputs);
+        };
         self.simulations += 1;
         self.log.end(&self.simulation.statistics())?;
         Halt::of_event(effect)

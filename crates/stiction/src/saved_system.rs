@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::balance::EnergyAccount;
-use crate::lower::{Mode, Numbering};
+use crate::lower::{Numbering, Setting};
 use crate::project::hexadecimal;
 use crate::runner::Recorded;
 
@@ -28,8 +28,8 @@ pub(crate) struct SavedSystem {
     pub(crate) model: String,
     /// The commands that have changed the model, as a command file.
     pub(crate) changes: String,
-    /// The analysis that functions were read for last.
-    pub(crate) mode: Mode,
+    /// The analysis that functions were read for last, and what sensors have kept.
+    pub(crate) setting: Setting,
     /// The numbering of what functions read.
     pub(crate) numbering: Numbering,
     /// Whether the model has been assembled.

@@ -27,7 +27,7 @@ impl Runner<'_> {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             model: self.session.project.model_checksum(),
             changes: self.changes_made.clone(),
-            mode: self.lowered.mode,
+            setting: self.setting(self.lowered.mode),
             numbering: self.measures.numbering(),
             assembled: self.assembled,
             recorded: self.instant,
@@ -106,7 +106,7 @@ impl Runner<'_> {
         self.measures = Measures::of_numbering(&saved.numbering);
         let source = project.model_source().name();
         // What is wrong with the model is told when it is simulated.
-        let _ = lower(&dataset, source, &mut self.measures, saved.mode);
+        let _ = lower(&dataset, source, &mut self.measures, &saved.setting);
         let moment = Moment {
             dataset: dataset.clone(),
             time: saved.simulation.time(),
@@ -180,7 +180,7 @@ impl Runner<'_> {
     fn go_on_from(&mut self, saved: &SavedSystem, step: &SourcedCommand) -> Result<(), Halt> {
         self.dataset = self.saved_dataset(saved);
         let source = self.session.project.model_source().name();
-        let lowered = lower(&self.dataset, source, &mut self.measures, saved.mode);
+        let lowered = lower(&self.dataset, source, &mut self.measures, &saved.setting);
         let lowered = lowered.map_err(|diagnostics| {
             let text: Vec<String> = diagnostics.into_iter().map(|d| d.message).collect();
             self.refuse(step, text.join("; "), "change it in the dataset")
@@ -195,6 +195,7 @@ impl Runner<'_> {
         self.recorder.outputs = lowered.outputs.clone();
         self.recorder.account.clone_from(&saved.account);
         self.lowered = lowered;
+        self.kept.clone_from(&saved.setting.kept);
         self.changed = false;
         self.assembled = saved.assembled;
         self.instant = saved.recorded;

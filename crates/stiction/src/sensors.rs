@@ -1,12 +1,13 @@
 //! SENSORs: events that are looked for at the outputs of a simulation.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
 use dataset::{Comparison, Dataset, Sensor, Switchable};
 use mechanics::expression::Program;
 use mechanics::{Observer, Snapshot, StepReport};
 
-use crate::lower::Outputs;
+use crate::lower::{Lowered, Outputs};
 use crate::recorder::{Observe, Stop};
 use crate::wrenches::Wrenches;
 
@@ -21,7 +22,11 @@ pub(crate) struct Sensors {
 #[derive(Clone, Debug)]
 struct Watched {
     sensor: Sensor,
+    /// Place among the sensors of the dataset.
+    place: usize,
     function: Program,
+    /// EVALUATE.
+    evaluate: Option<Program>,
     /// Function less VALUE at the output before.
     before: Option<f64>,
     /// Whether the event held at the output before.
@@ -46,42 +51,60 @@ pub(crate) struct Event {
     pub(crate) effect: Effect,
     /// What to tell about it.
     pub(crate) text: String,
+    /// The sensor and what it keeps, if anything.
+    pub(crate) keeps: Option<(u32, f64)>,
 }
 
 impl Event {
-    fn new(sensor: &Sensor, time: f64, function: f64) -> Self {
+    fn new(sensor: &Sensor, time: f64, function: f64, evaluated: Option<f64>) -> Self {
         let (effect, then) = match (sensor.halts, sensor.returns) {
             (true, _) => (Effect::Halt, "; HALT: the run ends here"),
             (false, true) => (Effect::Return, "; RETURN: the simulation ends here"),
             (false, false) => (Effect::None, ""),
         };
+        let id = sensor.header.id;
+        let kept = evaluated.map_or_else(String::new, |value| format!(", SENVAL({id}) is {value}"));
         let text = format!(
-            "SENSOR/{} at time {time}: its function is {function} ({} {}){then}",
-            sensor.header.id,
+            "SENSOR/{id} at time {time}: its function is {function} ({} {}){kept}{then}",
             sensor.comparison.keyword(),
             sensor.value,
         );
-        Self { effect, text }
+        Self {
+            effect,
+            text,
+            keeps: evaluated.map(|value| (id, value)),
+        }
     }
 }
 
 impl Sensors {
     /// The active sensors of a dataset, whose functions are in `outputs`.
     pub(crate) fn new(dataset: &Dataset, outputs: &Outputs) -> Self {
-        let all = dataset.sensors.iter().zip(&outputs.sensors);
+        let all = dataset.sensors.iter().zip(&outputs.sensors).enumerate();
         let active =
-            all.filter(|(sensor, _)| dataset.is_active(Switchable::Sensor, sensor.header.id));
+            all.filter(|(_, (sensor, _))| dataset.is_active(Switchable::Sensor, sensor.header.id));
         Self {
             watched: active
-                .map(|(sensor, function)| Watched {
+                .map(|(place, (sensor, (function, evaluate)))| Watched {
                     sensor: sensor.clone(),
+                    place,
                     function: function.clone(),
+                    evaluate: evaluate.clone(),
                     before: None,
                     held: false,
                 })
                 .collect(),
             outputs: outputs.clone(),
         }
+    }
+
+    /// Takes over functions that have been lowered anew.
+    pub(crate) fn renew(&mut self, outputs: &Outputs) {
+        for watched in &mut self.watched {
+            let (function, evaluate) = outputs.sensors[watched.place].clone();
+            (watched.function, watched.evaluate) = (function, evaluate);
+        }
+        self.outputs = outputs.clone();
     }
 
     /// The events that begin at an instant. One of EQ is also that the function has passed VALUE
@@ -106,11 +129,37 @@ impl Sensors {
             };
             watched.before = Some(difference);
             if holds && !watched.held {
-                events.push(Event::new(sensor, snapshot.time(), function));
+                let evaluate = watched.evaluate.as_ref();
+                let evaluated = evaluate.map(|function| snapshot.evaluate(function, &results));
+                events.push(Event::new(sensor, snapshot.time(), function, evaluated));
             }
             watched.held = holds;
         }
         events
+    }
+}
+
+/// Takes up what sensors keep.
+pub(crate) struct Keeping<'a> {
+    reads: &'a BTreeSet<u32>,
+    kept: &'a mut BTreeMap<u32, f64>,
+    /// Whether functions of the model have become other ones.
+    pub(crate) changes_functions: bool,
+}
+
+impl<'a> Keeping<'a> {
+    /// Into `kept`, of the sensors that a lowered model reads and of the others.
+    pub(crate) fn new(lowered: &'a Lowered, kept: &'a mut BTreeMap<u32, f64>) -> Self {
+        Self {
+            reads: &lowered.reads_sensors,
+            kept,
+            changes_functions: false,
+        }
+    }
+
+    fn take(&mut self, (id, value): (u32, f64)) {
+        let before = self.kept.insert(id, value);
+        self.changes_functions |= self.reads.contains(&id) && before != Some(value);
     }
 }
 
@@ -120,6 +169,7 @@ pub(crate) struct Sensing<'a, 'p, W: Write> {
     pub(crate) sensors: &'a mut Sensors,
     /// What events have done to the run.
     pub(crate) effect: Effect,
+    pub(crate) keeping: Keeping<'a>,
 }
 
 impl<W: Write> Observer for Sensing<'_, '_, W> {
@@ -133,12 +183,23 @@ impl<W: Write> Observer for Sensing<'_, '_, W> {
             return false;
         }
         for event in self.sensors.events(&wrenches) {
-            if let Err(error) = self.rows.log.note(&event.text) {
-                self.rows.stop = Some(Stop::Output(error));
+            let told = if event.keeps.is_some_and(|(_, value)| !value.is_finite()) {
+                Err(Stop::NotFinite(format!(
+                    "{}: EVALUATE gives no finite number",
+                    event.text
+                )))
+            } else {
+                self.rows.log.note(&event.text).map_err(Stop::Output)
+            };
+            if let Err(stop) = told {
+                self.rows.stop = Some(stop);
                 return false;
             }
             self.effect = self.effect.max(event.effect);
+            if let Some(keeps) = event.keeps {
+                self.keeping.take(keeps);
+            }
         }
-        self.effect == Effect::None
+        self.effect == Effect::None && !self.keeping.changes_functions
     }
 }

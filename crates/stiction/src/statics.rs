@@ -6,7 +6,7 @@ use results::DataKind;
 use crate::failure;
 use crate::recorder::Observe;
 use crate::runner::{Halt, Recorded, Runner};
-use crate::sensors::{Effect, Sensing, Sensors};
+use crate::sensors::{Effect, Keeping, Sensing, Sensors};
 use crate::session::{Outcome, Progress, Watch};
 use crate::settings::{self, TimeSpan};
 
@@ -55,6 +55,9 @@ impl Runner<'_> {
                 found.iterations, found.imbalance
             ))?;
             effect = self.record_equilibrium(&mut sensors, watch)?;
+            // Functions that read what a sensor has just kept are other ones from here on.
+            self.take_changes(self.lowered.mode)?;
+            sensors.renew(&self.lowered.outputs);
             if effect != Effect::None {
                 break;
             }
@@ -86,9 +89,16 @@ impl Runner<'_> {
             rows,
             sensors,
             effect: Effect::None,
+            keeping: Keeping::new(&self.lowered, &mut self.kept),
         };
         observer.output(&snapshot);
-        let Sensing { rows, effect, .. } = observer;
+        let Sensing {
+            rows,
+            effect,
+            keeping,
+            ..
+        } = observer;
+        self.changed |= keeping.changes_functions;
         if let Some(stop) = rows.stop {
             return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
         }

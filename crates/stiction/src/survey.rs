@@ -17,7 +17,7 @@ use crate::settings::{self, SpanError};
 pub(crate) fn of_project(project: &Project) -> (Measures, Vec<Message>) {
     let mut measures = Measures::default();
     let (dataset, source) = (project.dataset(), project.model_source());
-    let lowered = lower(dataset, source.name(), &mut measures, Mode::Dynamic);
+    let lowered = lower(dataset, source.name(), &mut measures, &Mode::Dynamic.into());
     // A model that is refused as given would be refused again.
     let given = lowered.is_ok();
     let mut messages: Vec<Message> = lowered
@@ -134,7 +134,7 @@ impl<'a> Survey<'a> {
         let source = self.project.model_source();
         if let Some(changed) = self.changed.take().filter(|_| self.lowers) {
             let dataset = &self.now.dataset;
-            let lowered = lower(dataset, source.name(), self.measures, Mode::Dynamic);
+            let lowered = lower(dataset, source.name(), self.measures, &Mode::Dynamic.into());
             let errors = lowered.err().unwrap_or_default();
             self.at_command(errors, changed);
         }

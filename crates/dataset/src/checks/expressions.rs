@@ -47,7 +47,11 @@ fn all(dataset: &Dataset) -> impl Iterator<Item = (&Expression, Place)> {
         .chain(vectors)
         .chain(variables)
         .chain(differentials);
-    let sensors = dataset.sensors.iter().map(|element| &element.function);
+    let sensors = dataset
+        .sensors
+        .iter()
+        .flat_map(|element| [Some(&element.function), element.evaluate.as_ref()])
+        .flatten();
     let outputs = requests.flatten().chain(sensors);
     let moving = moving.map(|expression| (expression, Place::Motion));
     moving.chain(outputs.map(|expression| (expression, Place::Output)))
@@ -224,6 +228,7 @@ fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
         ElementKind::Friction => dataset.frictions.position(id),
         ElementKind::PlantInput => dataset.plant_inputs.position(id),
         ElementKind::PlantOutput => dataset.plant_outputs.position(id),
+        ElementKind::Sensor => dataset.sensors.position(id),
         ElementKind::Other => return true,
     };
     position.is_some()
@@ -251,6 +256,7 @@ const fn statement(element: ElementKind) -> &'static str {
         ElementKind::Friction => "FRICTION",
         ElementKind::PlantInput => "PINPUT",
         ElementKind::PlantOutput => "POUTPUT",
+        ElementKind::Sensor => "SENSOR",
         ElementKind::Other => "element",
     }
 }

@@ -200,6 +200,7 @@ impl Reader<'_> {
                 let word = |span: &Span| self.source.slice(*span).to_string();
                 match part.kind {
                     Some(Kind::Word) => Value::Word(spans.first().map(word)?),
+                    Some(Kind::IdsOrAll) => Value::Word("ALL".to_string()),
                     _ => Value::Words(spans.iter().map(word).collect()),
                 }
             }

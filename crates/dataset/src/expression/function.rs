@@ -43,6 +43,8 @@ pub enum ElementKind {
     PlantInput,
     /// POUTPUT.
     PlantOutput,
+    /// SENSOR.
+    Sensor,
     /// An element that datasets read by stiction cannot have; its functions are not simulated.
     Other,
 }
@@ -297,8 +299,8 @@ functions! {
         "id, component" "value of a variable of a PINPUT";
     Pouval "POUVAL" 2 [Element(E::PlantOutput), Integer] 2
         "id, component" "value of a variable of a POUTPUT";
-    Senval "SENVAL" 1 [Element(E::Other)] 1
-        "id" "value of EVALUATE when a SENSOR was triggered last";
+    Senval "SENVAL" 1 [Element(E::Sensor)] 1
+        "id" "value of EVALUATE when a SENSOR was triggered last, 0 before";
     // Mathematics; angles in radians.
     Abs "ABS" 1 [Real] 1
         "x" "magnitude";

@@ -376,9 +376,16 @@ impl<'a> Reader<'a> {
             Kind::Ids => Value::Integers(
                 self.each(raw, path, |reader, raw, path| reader.integer(raw, 1, path))?,
             ),
-            Kind::IdsOrAll => match self.array(raw, path)?.first() {
-                Some(first) if first.get().starts_with('"') => {
-                    Value::Words(self.each(raw, path, Self::string)?)
+            Kind::IdsOrAll => match self.read(raw, path)? {
+                Json::String(all) if all == "ALL" => Value::Word(all),
+                Json::String(_) => {
+                    self.expected(
+                        raw,
+                        path,
+                        "\"ALL\" or numbers of elements",
+                        "another string",
+                    );
+                    return None;
                 }
                 _ => {
                     let kind = Kind::Ids;

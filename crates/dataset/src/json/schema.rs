@@ -193,7 +193,7 @@ fn value(keyword: &Keyword) -> Value {
         Kind::Id => reference("id"),
         Kind::Ids => list(&reference("id")),
         Kind::IdsOrAll => json!({
-            "oneOf": [list(&reference("id")), list(&json!({ "const": "ALL" }))],
+            "oneOf": [list(&reference("id")), { "const": "ALL" }],
         }),
         Kind::Word | Kind::Text => json!({ "type": "string" }),
         Kind::Words | Kind::Strings => list(&json!({ "type": "string" })),

@@ -39,6 +39,8 @@ pub struct Sensor {
     pub value: f64,
     /// ERROR: how far from `value` still counts, positive; default 1e-3.
     pub error: f64,
+    /// EVALUATE: what SENVAL gives from the event on.
+    pub evaluate: Option<Expression>,
     /// RETURN: the event ends the simulation; the next command follows.
     pub returns: bool,
     /// HALT: the event ends the run.

@@ -18,7 +18,7 @@ pub(super) const KEYWORDS: &[Keyword] = &[
     abbreviated("RETURN", "RET", Kind::Flag),
     // Every event is told in the message file, and is looked for at outputs only.
     abbreviated("PRINT", "P", Kind::Flag),
-    abbreviated("EVALUATE", "EV", Kind::Ignored("SENVAL is not simulated")),
+    abbreviated("EVALUATE", "EV", Kind::Expression),
     abbreviated(
         "CODGEN",
         "C",
@@ -69,6 +69,7 @@ pub(super) fn sensor(reading: &mut Reading, builder: &mut Builder) {
         comparison: comparison.unwrap_or(Comparison::Equal),
         value: reading.real("VALUE").unwrap_or(0.0),
         error: reading.positive("ERROR").unwrap_or(DEFAULT_ERROR),
+        evaluate: reading.expression("EVALUATE"),
         returns: reading.has("RETURN"),
         halts: reading.has("HALT"),
     };

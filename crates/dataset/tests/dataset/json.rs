@@ -290,6 +290,13 @@ fn value_of(schema: &Value, definitions: &Value) -> BoxedStrategy<Value> {
     if schema["const"] == json!(true) {
         return Just(json!(true)).boxed();
     }
+    if let Some(text) = schema["const"].as_str() {
+        return Just(json!(text)).boxed();
+    }
+    if let Some(ways) = schema["oneOf"].as_array() {
+        let ways = ways.iter().map(|way| value_of(way, definitions));
+        return proptest::strategy::Union::new(ways).boxed();
+    }
     match schema["type"].as_str() {
         Some("integer") => any::<u32>().prop_map(|value| json!(value)).boxed(),
         Some("array") => {

@@ -148,7 +148,7 @@ impl Compiler {
             Expr::Time => self.program.push(Operation::Input(Input::Time)),
             Expr::Mode => {
                 lowering.reads_mode = true;
-                self.constant(lowering.mode.value())
+                self.constant(lowering.setting.mode.value())
             }
             Expr::Negate(operand) => {
                 let operand = self.expr(lowering, operand)?;
@@ -210,6 +210,13 @@ impl Compiler {
             } else {
                 Err(self.refuse_order(lowering, call))
             };
+        }
+        if function == Function::Senval {
+            // The checks of the dataset have reported a sensor that is not there.
+            let id = arguments.first().and_then(Expr::as_id).ok_or(Refused)?;
+            lowering.reads_sensors.insert(id);
+            let kept = lowering.setting.kept.get(&id);
+            return Ok(self.constant(kept.copied().unwrap_or(0.0)));
         }
         if let Some(input) = state_of(lowering, function, arguments) {
             return if self.reads >= Reads::Solution {
@@ -502,10 +509,6 @@ const fn refusal(function: Function) -> (&'static str, &'static str) {
         F::Aryval => (
             "reads an element that the array does not have",
             "an array of states or outputs has those of the LSE or TFSISO that names it",
-        ),
-        F::Senval => (
-            "reads a value that sensors do not keep",
-            "write the function that EVALUATE of the SENSOR has",
         ),
         F::Contact | F::Cvcv | F::Nforce => (
             "reads a force of an element that is not simulated",

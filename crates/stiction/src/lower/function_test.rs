@@ -62,6 +62,7 @@ BEAM/1, I=60, J=1, LENGTH=1, AREA=1, IXX=1, IYY=1, IZZ=1, EMODULUS=1, GMODULUS=1
 VARIABLE/1, FUNCTION=3+DX(21)
 ARRAY/1, U, VARIABLES=1
 DIFF/1, IC=1, FUNCTION=-DIF(1)
+SENSOR/1, GE, VALUE=1, FUNCTION=TIME\\, EVALUATE=TIME
 PINPUT/1, VARIABLES=1
 POUTPUT/1, VARIABLES=1
 ";
@@ -222,7 +223,13 @@ fn checks() -> Vec<(Function, Check)> {
         (N::Dif1, Test("DIF1(1)", IMPLICIT)),
         (N::Pinval, F("PINVAL(1,1)", |w| 3.0 + w.i.origin.x)),
         (N::Pouval, F("POUVAL(1,1)", |w| 3.0 + w.i.origin.x)),
-        (N::Senval, Refused("SENVAL(1)")),
+        (
+            N::Senval,
+            Test(
+                "SENVAL(1)",
+                "tests/stiction/run_time.rs: functions_read_what_a_sensor_has_kept",
+            ),
+        ),
         (N::Abs, F("ABS({y})", |w| w.y.abs())),
         (N::Acos, F("ACOS({x}/5)", |w| (w.x / 5.0).acos())),
         (N::Aint, F("AINT(3*{x})", |w| (3.0 * w.x).trunc())),
@@ -385,7 +392,7 @@ fn model(statement: &str) -> Result<Model, String> {
         &dataset,
         "world.adm",
         &mut Measures::default(),
-        Mode::Dynamic,
+        &Mode::Dynamic.into(),
     );
     lowered.map(|lowered| lowered.model).map_err(|diagnostics| {
         let messages = diagnostics.into_iter().map(|d| d.message);
@@ -566,7 +573,7 @@ fn output(start: &Simulation, function: &str) -> f64 {
     let text = format!("{WORLD}REQUEST/77, F2={function}\nEND\n");
     let (dataset, _) = read_dataset(&Source::from_text("world.adm", text));
     let mut measures = Measures::default();
-    let lowered = lower(&dataset, "world.adm", &mut measures, Mode::Dynamic).unwrap();
+    let lowered = lower(&dataset, "world.adm", &mut measures, &Mode::Dynamic.into()).unwrap();
     let mut simulation = Simulation::new(lowered.model, 1.0);
     let frictions = simulation.model().frictions.len();
     simulation.assemble().unwrap();

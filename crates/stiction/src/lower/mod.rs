@@ -29,7 +29,7 @@ mod results;
 mod tables;
 mod unknowns;
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use ::dataset::{Code, Dataset, Diagnostic, Function, Header, Severity, Span, Switchable};
 use mechanics::Owner;
@@ -72,6 +72,25 @@ impl Mode {
     }
 }
 
+/// What functions read beside the motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Setting {
+    /// The analysis, which MODE gives.
+    pub(crate) mode: Mode,
+    /// What sensors have kept, which SENVAL gives; zero for the others.
+    pub(crate) kept: BTreeMap<u32, f64>,
+}
+
+impl From<Mode> for Setting {
+    /// An analysis in which no sensor has kept anything.
+    fn from(mode: Mode) -> Self {
+        Self {
+            mode,
+            kept: BTreeMap::new(),
+        }
+    }
+}
+
 /// A dataset lowered to mechanics.
 #[derive(Clone, Debug)]
 pub(crate) struct Lowered {
@@ -85,6 +104,8 @@ pub(crate) struct Lowered {
     pub(crate) mode: Mode,
     /// Whether a function reads MODE, so that another analysis needs another lowering.
     pub(crate) reads_mode: bool,
+    /// The sensors that SENVAL is asked of, which need another lowering when they are triggered.
+    pub(crate) reads_sensors: BTreeSet<u32>,
     /// Warnings.
     pub(crate) warnings: Vec<Diagnostic>,
 }
@@ -92,7 +113,7 @@ pub(crate) struct Lowered {
 /// Lowers a dataset that was read without errors from the source of that name.
 ///
 /// `measures` keeps its measures and takes on the new ones, so that models that are lowered with
-/// the same list number them alike. `mode` is the analysis to come.
+/// the same list number them alike. `setting` is that of the analysis to come.
 ///
 /// # Errors
 /// Everything that is not simulated, each with its place.
@@ -100,7 +121,7 @@ pub(crate) fn lower(
     dataset: &Dataset,
     source: &str,
     measures: &mut Measures,
-    mode: Mode,
+    setting: &Setting,
 ) -> Result<Lowered, Vec<Diagnostic>> {
     let mut lowering = Lowering {
         dataset,
@@ -108,8 +129,9 @@ pub(crate) fn lower(
         ucf: dataset.units.as_ref().map_or(1.0, |units| units.ucf),
         ground: dataset.markers.len(),
         measures,
-        mode,
+        setting,
         reads_mode: false,
+        reads_sensors: BTreeSet::new(),
         motions: Vec::new(),
         results: Vec::new(),
         tables: tables::Tables::default(),
@@ -142,6 +164,7 @@ pub(crate) fn lower(
         motions,
         mut diagnostics,
         reads_mode,
+        reads_sensors,
         refused,
         ..
     } = lowering;
@@ -156,8 +179,9 @@ pub(crate) fn lower(
         model,
         outputs,
         motions,
-        mode,
+        mode: setting.mode,
         reads_mode,
+        reads_sensors,
         warnings: diagnostics,
     })
 }
@@ -172,8 +196,9 @@ struct Lowering<'a> {
     /// Place of the implicit marker at the origin of ground.
     ground: usize,
     measures: &'a mut Measures,
-    mode: Mode,
+    setting: &'a Setting,
     reads_mode: bool,
+    reads_sensors: BTreeSet<u32>,
     motions: Vec<Option<Owner>>,
     /// Results that output functions read, by number.
     results: Vec<results::ResultSource>,

@@ -65,8 +65,8 @@ pub(crate) struct Outputs {
     pub(crate) variables: Vec<Register>,
     /// The requests, in the order of [`dataset::Dataset::all_requests`].
     pub(crate) requests: Vec<RequestOutput>,
-    /// What each sensor watches, in the order of the dataset.
-    pub(crate) sensors: Vec<Program>,
+    /// What each sensor watches and what it keeps, in the order of the dataset.
+    pub(crate) sensors: Vec<(Program, Option<Program>)>,
 }
 
 /// Names of the columns of a standard request, its functions by column (marker arguments i, j and
@@ -96,8 +96,12 @@ impl Lowering<'_> {
             });
         }
         for sensor in &dataset.sensors {
-            let function = self.function(sensor, "SENSOR", Reads::Outputs, &sensor.function);
-            outputs.sensors.extend(function);
+            let mut read = |function| self.function(sensor, "SENSOR", Reads::Outputs, function);
+            let watched = read(&sensor.function);
+            let kept = sensor.evaluate.as_ref().and_then(&mut read);
+            outputs
+                .sensors
+                .extend(watched.map(|watched| (watched, kept)));
         }
         outputs.program = compiler.program;
         outputs.results.clone_from(&self.results);

@@ -341,6 +341,47 @@ fn sensors_end_simulations_and_runs() {
     assert_eq!(printed.messages.matches("SENSOR/4 at time").count(), 1);
 }
 
+/// A sensor keeps its EVALUATE from the event on, for forces and outputs, into later simulations.
+#[test]
+fn functions_read_what_a_sensor_has_kept() {
+    let model = "A block that is pushed less once it is fast
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=1
+SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=4-4*SENVAL(1)
+SENSOR/1, GE, VALUE=1, ERROR=1E-6, FUNCTION=VZ(20)\\, EVALUATE=TIME*SENVAL(2)
+SENSOR/2, GE, VALUE=0.1, ERROR=1E-6, FUNCTION=TIME\\, EVALUATE=1
+SENSOR/3, GE, VALUE=9, RETURN, FUNCTION=VZ(20)
+REQUEST/1, F2=SENVAL(1)\\F3=SENVAL(3)
+INTEGRATOR/GSTIFF, SI2, ERROR=1E-8
+";
+    let run = run_commands(
+        model,
+        "SIMULATE/DYNAMIC, END=0.8, STEPS=80\nDEACTIVATE/SENSOR, ID=1\n\
+         SIMULATE/DYNAMIC, END=1, STEPS=20",
+    );
+    assert_eq!(run.report.outcome, Outcome::Completed, "{}", run.messages);
+    assert_eq!(run.report.simulations, 2);
+    let first = run.results.block("dynamic_001").unwrap();
+    assert_eq!(first.times.len(), 80);
+    let kept: Vec<f64> = first
+        .column(run.results.column("REQUEST_1.F2").unwrap())
+        .collect();
+    // 2 m/s^2 reach 1 m/s at 0.5 s, whose row was written before the event.
+    assert!(kept[..50].iter().all(|value| *value == 0.0));
+    assert!(kept[50..].iter().all(|value| (value - 0.5).abs() < 1e-12));
+    assert_eq!(last(&run, "dynamic_001", "REQUEST_1.F3"), 0.0);
+    // 1 m/s^2 from there on.
+    for (block, speed) in [("dynamic_001", 1.3), ("dynamic_002", 1.5)] {
+        let found = last(&run, block, "PART_2_XFORM.VZ");
+        assert!((found - speed).abs() < 1e-7, "{block}: {found}");
+    }
+    let told = run.messages.matches("SENVAL(1) is 0.5").count();
+    assert_eq!(told, 1, "{}", run.messages);
+}
+
 #[test]
 fn a_function_without_a_finite_value_is_named_and_not_the_mechanism() {
     let slider = "A slider\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=2, CM=20, IP=1, 1, 1
