@@ -2,7 +2,7 @@
 
 use numerics::linear::{FrontalLu, Matrix, Singular};
 
-use super::rows::Row;
+use super::rows::{Block, Row, expand};
 
 /// Diagonal of the multipliers that makes redundant equations harmless.
 pub(super) const REGULARISATION: f64 = 1e-10;
@@ -31,7 +31,7 @@ impl Least {
 
     fn factor<'a>(
         &mut self,
-        rows: impl Iterator<Item = &'a Row>,
+        rows: impl Iterator<Item = &'a [Block]>,
         weights: &[f64],
         regularisation: f64,
     ) -> Result<(), Singular> {
@@ -42,7 +42,7 @@ impl Least {
         for (place, row) in rows.enumerate() {
             let place = self.n + place;
             self.matrix.add(place, place, regularisation);
-            for (body, block) in &row.blocks {
+            for (body, block) in row {
                 for (k, g) in block.iter().enumerate() {
                     self.matrix.add(place, 6 * body + k, *g);
                     self.matrix.add(6 * body + k, place, -g);
@@ -66,7 +66,8 @@ impl Least {
         right: &[f64],
         regularisation: f64,
     ) -> Result<Vec<f64>, Singular> {
-        self.factor(rows.iter(), weights, regularisation)?;
+        let blocks = rows.iter().map(|row| &row.blocks[..]);
+        self.factor(blocks, weights, regularisation)?;
         let mut solution: Vec<f64> = wanted.iter().zip(weights).map(|(x, w)| x * w).collect();
         solution.extend_from_slice(right);
         self.factors.solve(&mut solution);
@@ -74,16 +75,21 @@ impl Least {
         Ok(solution)
     }
 
-    /// Coefficients with which `rows` combine to `target` as nearly as possible.
-    pub(super) fn combination(
+    /// Coefficients with which `rows` combine to each of the `targets` as nearly as possible.
+    pub(super) fn combinations(
         &mut self,
-        rows: &[&Row],
-        target: &[f64],
-    ) -> Result<Vec<f64>, Singular> {
-        self.factor(rows.iter().copied(), &vec![1.0; self.n], REGULARISATION)?;
-        let mut solution = target.to_vec();
-        solution.resize(self.n + self.rows, 0.0);
-        self.factors.solve(&mut solution);
-        Ok(solution.split_off(self.n).into_iter().map(|c| -c).collect())
+        rows: &[Vec<Block>],
+        targets: &[Vec<Block>],
+    ) -> Result<Vec<Vec<f64>>, Singular> {
+        let rows = rows.iter().map(|row| &row[..]);
+        self.factor(rows, &vec![1.0; self.n], REGULARISATION)?;
+        let mut combination = |target: &Vec<Block>| {
+            let mut solution = expand(target, self.n / 6);
+            solution.resize(self.n + self.rows, 0.0);
+            self.factors.solve(&mut solution);
+            let coefficients = solution.split_off(self.n);
+            coefficients.into_iter().map(|c| -c).collect()
+        };
+        Ok(targets.iter().map(&mut combination).collect())
     }
 }

@@ -7,6 +7,7 @@
 //! others are found (`numerics::rank`), and what they say must hold anyway.
 
 mod least_change;
+mod loops;
 mod massless;
 mod redundancy;
 mod report;

@@ -1,10 +1,11 @@
 //! Which constraint equations depend on others, and whose reactions are then not unique.
 
+use numerics::linear::Singular;
 use numerics::rank::independent_rows;
 
 use super::least_change::Least;
 use super::report::AssemblyError;
-use super::rows::{Row, expand};
+use super::rows::{Block, bodies_of, expand};
 use crate::constraint::Owner;
 use crate::system::System;
 
@@ -13,38 +14,47 @@ use crate::system::System;
 const RANK_TOLERANCE: f64 = 1e-5;
 
 impl System {
-    /// Which of the equations in force to keep, and in what order they were tried: those of joints that lock most come first, so that the equation
-    /// dropped is that of the element that is most likely meant as the extra one.
+    /// Which of the equations in force to keep, and in what order they were tried: those of joints
+    /// that lock most come first, so that the equation dropped is that of the element that is most
+    /// likely meant as the extra one.
     pub(super) fn independent(&mut self, length: f64) -> (Vec<bool>, Vec<usize>) {
-        let count = |owner: Owner| self.constraints.iter().filter(|c| c.owner == owner).count();
-        let mut order: Vec<(usize, usize)> = self
-            .constraints
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| c.row.is_some())
-            .map(|(place, c)| {
-                let rank = match c.owner {
-                    Owner::Joint(_) => 6 - count(c.owner).min(6),
-                    Owner::Motion(_) => 7,
-                    Owner::General(_) => 8,
-                };
-                (rank, place)
-            })
-            .collect();
-        order.sort_unstable();
-        let rows = self.assembly_rows(&[], length);
-        let n = self.velocity_count();
-        let full: Vec<Vec<f64>> = order
-            .iter()
-            .filter_map(|&(_, place)| self.constraints[place].row)
-            .map(|row| expand(&rows[row], n))
-            .collect();
-        let kept = independent_rows(&full, RANK_TOLERANCE);
-        let mut active = vec![false; self.constraints.len()];
-        for (&(_, place), kept) in order.iter().zip(kept) {
-            active[place] = kept;
+        let mut locks = vec![0; self.model.joints.len()];
+        for constraint in &self.constraints {
+            if let Owner::Joint(joint) = constraint.owner {
+                locks[joint] += 1;
+            }
         }
-        (active, order.into_iter().map(|(_, place)| place).collect())
+        let preference = |place: usize| match self.constraints[place].owner {
+            Owner::Joint(joint) => 6 - locks[joint].min(6),
+            Owner::Motion(_) => 7,
+            Owner::General(_) => 8,
+        };
+        let rows = self.assembly_rows(&[], length);
+        let mut active = vec![false; self.constraints.len()];
+        for mut places in self.loops_of_constraints() {
+            places.sort_by_key(|&place| (preference(place), place));
+            let row = |&place: &usize| &rows[self.constraints[place].row.unwrap_or_default()];
+            let bodies = bodies_of(places.iter().map(row));
+            let full = places.iter().map(row);
+            let full = full.map(|row| expand(&row.among(&bodies), bodies.len()));
+            let full: Vec<Vec<f64>> = full.collect();
+            let kept = independent_rows(&full, RANK_TOLERANCE);
+            for (&place, kept) in places.iter().zip(kept) {
+                active[place] = kept;
+            }
+        }
+        let mut order = self.rows.clone();
+        order.sort_by_key(|&place| (preference(place), place));
+        (active, order)
+    }
+
+    /// The constraints in force by loops.
+    fn loops_of_constraints(&self) -> Vec<Vec<usize>> {
+        let place = |row: usize| self.rows[row];
+        let loops = self.loops().into_iter();
+        loops
+            .map(|rows| rows.into_iter().map(place).collect())
+            .collect()
     }
 
     /// Frictions of joints whose multipliers take part in a dependency.
@@ -53,39 +63,49 @@ impl System {
         active: &[bool],
         length: f64,
     ) -> Result<Vec<usize>, AssemblyError> {
-        let n = self.velocity_count();
+        if self.model.frictions.is_empty() {
+            return Ok(Vec::new());
+        }
         let all: Vec<bool> = vec![true; active.len()];
         self.set_active(&all);
         let rows = self.assembly_rows(&[], length);
-        // Equations of elements at rest have no row, and take no part.
         let row_of: Vec<Option<usize>> = self.constraints.iter().map(|c| c.row).collect();
+        let loops = self.loops_of_constraints();
         self.set_active(active);
-        let places = |wanted: bool| -> Vec<(usize, usize)> {
-            let rows = row_of.iter().enumerate();
-            let rows = rows.filter_map(|(place, row)| row.map(|row| (place, row)));
-            rows.filter(|(place, _)| active[*place] == wanted).collect()
-        };
-        let (dropped, kept) = (places(false), places(true));
-        if dropped.is_empty() || self.model.frictions.is_empty() {
-            return Ok(Vec::new());
-        }
-        let kept_rows: Vec<&Row> = kept.iter().map(|&(_, row)| &rows[row]).collect();
         let mut touched = vec![false; self.model.joints.len()];
         let mut touch = |place: usize| {
             if let Owner::Joint(joint) = self.constraints[place].owner {
                 touched[joint] = true;
             }
         };
-        let mut least = Least::new(self.model.bodies.len(), &self.bodies_of_rows());
-        for &(place, row) in &dropped {
-            touch(place);
-            // The dropped row as a combination of kept ones: rest + Gᵀ c = row, G rest = 0.
-            let coefficients = least
-                .combination(&kept_rows, &expand(&rows[row], n))
-                .map_err(|singular| self.out_of_scale(singular))?;
-            for (&(place, _), c) in kept.iter().zip(coefficients) {
-                if c.abs() > 1e-6 {
-                    touch(place);
+        for places in loops {
+            let (kept, dropped): (Vec<usize>, _) =
+                places.into_iter().partition(|&place| active[place]);
+            if dropped.is_empty() {
+                continue;
+            }
+            let row = |&place: &usize| &rows[row_of[place].unwrap_or_default()];
+            let bodies = bodies_of(kept.iter().chain(&dropped).map(row));
+            let blocks = |places: &[usize]| -> Vec<Vec<Block>> {
+                places
+                    .iter()
+                    .map(|place| row(place).among(&bodies))
+                    .collect()
+            };
+            // Every dropped row as a combination of kept ones: rest + Gᵀ c = row, G rest = 0.
+            let combinations = Least::new(bodies.len(), &vec![None; kept.len()])
+                .combinations(&blocks(&kept), &blocks(&dropped))
+                .map_err(|singular| {
+                    let body = bodies.get(singular.column / 6).or(bodies.first());
+                    let column = 6 * body.copied().unwrap_or_default();
+                    self.out_of_scale(Singular { column, ..singular })
+                })?;
+            for (&place, coefficients) in dropped.iter().zip(combinations) {
+                touch(place);
+                for (&place, c) in kept.iter().zip(coefficients) {
+                    if c.abs() > 1e-6 {
+                        touch(place);
+                    }
                 }
             }
         }

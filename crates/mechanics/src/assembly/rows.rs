@@ -20,11 +20,14 @@ pub(super) struct Start {
     label: Label,
 }
 
+/// A body and the part of a row in its motions.
+pub(super) type Block = (usize, [f64; 6]);
+
 /// One row of the assembly equations: error, wanted rate, and Jacobian by body, scaled.
 pub(super) struct Row {
     pub(super) error: f64,
     pub(super) rate: f64,
-    pub(super) blocks: Vec<(usize, [f64; 6])>,
+    pub(super) blocks: Vec<Block>,
     pub(super) in_position: bool,
     pub(super) in_velocity: bool,
     /// What errors and rates are multiplied with to become dimensionless, and what they are.
@@ -172,9 +175,28 @@ fn gradient_scale(jacobian: &[[f64; 6]], length: f64) -> f64 {
     }
 }
 
-pub(super) fn expand(row: &Row, n: usize) -> Vec<f64> {
-    let mut full = vec![0.0; n];
-    for (body, block) in &row.blocks {
+/// The bodies that rows are about, ascending.
+pub(super) fn bodies_of<'a>(rows: impl Iterator<Item = &'a Row>) -> Vec<usize> {
+    let bodies = rows.flat_map(|row| row.blocks.iter().map(|block| block.0));
+    let mut bodies: Vec<usize> = bodies.collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    bodies
+}
+
+impl Row {
+    /// Its blocks by place among `bodies`, which are all that it is about, ascending.
+    pub(super) fn among(&self, bodies: &[usize]) -> Vec<Block> {
+        let place = |body: &usize| bodies.binary_search(body).unwrap_or_default();
+        let blocks = self.blocks.iter();
+        blocks.map(|(body, g)| (place(body), *g)).collect()
+    }
+}
+
+/// Blocks over `bodies` bodies as a full row.
+pub(super) fn expand(blocks: &[Block], bodies: usize) -> Vec<f64> {
+    let mut full = vec![0.0; 6 * bodies];
+    for (body, block) in blocks {
         for k in 0..6 {
             full[6 * body + k] += block[k];
         }
