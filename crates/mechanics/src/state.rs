@@ -3,7 +3,8 @@
 //! The integrator's vector holds seven numbers of position a body (centre of mass in ground, unit
 //! quaternion of the part), then six of velocity a body (velocity of the centre of mass and angular
 //! velocity, both along ground axes), then the differential states of system elements, then the
-//! bristle deflections of LuGre frictions, and last the works of frictions, forces and motions.
+//! bristle deflections of LuGre frictions, the works of frictions, forces and motions, and last, where
+//! functions jump, what their switches share between the two sides of a jump.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -21,12 +22,13 @@ pub const VELOCITIES: usize = 6;
 pub struct State {
     /// Time.
     pub time: f64,
-    /// Positions, velocities, differential states, bristle deflections and works; see the module's
-    /// description.
+    /// Positions, velocities, differential states, bristle deflections, works and shares; see the
+    /// module's description.
     pub values: Vec<f64>,
     bodies: usize,
     states: usize,
     bristles: usize,
+    shares: usize,
 }
 
 impl State {
@@ -38,6 +40,7 @@ impl State {
             bodies: values.len() / (POSITIONS + VELOCITIES),
             states: 0,
             bristles: 0,
+            shares: 0,
             values,
         }
     }
@@ -50,6 +53,7 @@ impl State {
             self.states = states.len();
         }
         self.bristles = bristles;
+        self.shares = 0;
         let size = self.rate_range().end + bristles + works;
         self.values.resize(size, 0.0);
     }
@@ -108,7 +112,19 @@ impl State {
 
     /// Places of the works among the values.
     pub(crate) fn work_range(&self) -> std::ops::Range<usize> {
-        self.bristle_range().end..self.values.len()
+        self.bristle_range().end..self.values.len() - self.shares
+    }
+
+    /// Gives the state this number of shares of switches, zero where they are new. It has them while
+    /// it is integrated.
+    pub(crate) fn set_shares(&mut self, count: usize) {
+        self.values.resize(self.work_range().end + count, 0.0);
+        self.shares = count;
+    }
+
+    /// Places of the shares of switches among the values.
+    pub(crate) fn share_range(&self) -> std::ops::Range<usize> {
+        self.work_range().end..self.values.len()
     }
 
     /// Works so far: what each friction took out, then what forces and what motions put in.
@@ -139,6 +155,15 @@ impl State {
     pub fn velocities_mut(&mut self) -> &mut [f64] {
         let range = self.bodies * POSITIONS..self.motions();
         &mut self.values[range]
+    }
+
+    /// Gives every quaternion its length of one back.
+    pub(crate) fn normalize(&mut self) {
+        for body in 0..self.bodies {
+            let place = body * POSITIONS + 3;
+            let q = self.orientation(body).normalized();
+            q.write(&mut self.values[place..place + 4]);
+        }
     }
 
     /// Displaces all bodies: six numbers a body, `δr` and the small rotation `δθ`, ground axes.

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use dataset::{Code, Dataset, Severity};
 use mechanics::model::{Label, Model};
-use mechanics::{Assembly, Formulation, Settings, Snapshot, Statistics};
+use mechanics::{Assembly, Formulation, Settings, Sliding, Snapshot, Statistics};
 use results::{DataKind, MessageWriter, StepRow};
 
 use crate::about::about;
@@ -35,6 +35,8 @@ pub(crate) struct Journal<'p, W: Write> {
     broken: HashSet<Label>,
     /// Outputs told of that have the reactions of their step.
     rough: usize,
+    /// Jumps told of that motions have stayed at.
+    slidings: usize,
 }
 
 /// Redundant equations that are off by this part of the model's length, or as many radians, no
@@ -53,6 +55,7 @@ impl<'p, W: Write> Journal<'p, W> {
             exhausted: HashSet::new(),
             broken: HashSet::new(),
             rough: 0,
+            slidings: 0,
         }
     }
 
@@ -276,6 +279,20 @@ impl<'p, W: Write> Journal<'p, W> {
              bristles that are not passive left the instant without a solution"
         );
         self.warning(Code::StepReactions, None, text)
+    }
+
+    /// Tells of the jumps of functions that the motion has stayed at, those told before left out.
+    pub(crate) fn slidings(&mut self, slidings: &[Sliding]) -> Result<(), OutputError> {
+        for sliding in slidings.iter().skip(self.slidings) {
+            let text = format!(
+                "{}: {} jumps to and fro from time {:.6} on; the motion is held there, with a value \
+                 between those of its sides, and its argument to {:.1e}",
+                sliding.element, sliding.function, sliding.time, sliding.width
+            );
+            self.report(Severity::Note, Code::Chatter, Some(&sliding.element), text)?;
+        }
+        self.slidings = slidings.len();
+        Ok(())
     }
 
     /// Warns once for each sliding joint that has left its guide.

@@ -484,11 +484,13 @@ impl<'a> Runner<'a> {
             } = observer;
             self.changed |= keeping.changes_functions;
             next_row = rows.next_row;
-            if let Some(stop) = rows.stop {
+            let (stop, interrupted) = (rows.stop, rows.interrupted);
+            self.log.slidings(self.simulation.slidings())?;
+            if let Some(stop) = stop {
                 return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
             }
             match ran {
-                Ok(Ending::Stopped) if rows.interrupted => {
+                Ok(Ending::Stopped) if interrupted => {
                     return Err(Halt::Ended(Outcome::Interrupted));
                 }
                 Ok(Ending::Completed | Ending::Stopped) => {}

@@ -31,8 +31,9 @@
 
 mod positions;
 mod quadrature;
+mod switching;
 
-use numerics::bdf;
+use numerics::bdf::{self, Verdict, Within};
 use numerics::linear::{FrontalLu, Matrix};
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +43,8 @@ use crate::model::Level;
 use crate::state::{POSITIONS, State, VELOCITIES};
 use crate::system::{Rows, System, Weights};
 use quadrature::Quadrature;
+pub use switching::Sliding;
+use switching::Switching;
 
 /// How the constraints enter a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +135,8 @@ pub(crate) struct Dynamics {
     /// Error tolerance per step, relative to the scales.
     pub(crate) tolerance: f64,
     pub(crate) newton_iterations: usize,
+    /// Shortest and longest step.
+    pub(crate) steps: [f64; 2],
     pub(crate) scales: Scales,
     pub(crate) work: Work,
     /// Multipliers λ of the last solved step.
@@ -142,6 +147,7 @@ pub(crate) struct Dynamics {
     /// Errors of the bristle deflections that a step may make.
     bristle_errors: Vec<f64>,
     quadrature: Quadrature,
+    switching: Switching,
     /// Largest magnitude of each differential state so far.
     state_scales: Vec<f64>,
     state: State,
@@ -173,13 +179,15 @@ impl Dynamics {
         let moving = system.velocity_count();
         let size = system.unknown_count();
         let multipliers = system.multiplier_count();
-        let state = system.given_state(0.0);
+        let mut state = system.given_state(0.0);
+        state.set_shares(system.switch_count());
         Self {
             formulation: Formulation::Si2,
             present: Formulation::Si2,
             index3_left: 0,
             tolerance: 1e-6,
             newton_iterations: 4,
+            steps: [0.0, f64::INFINITY],
             scales,
             work: Work::default(),
             multipliers: vec![0.0; multipliers],
@@ -187,6 +195,7 @@ impl Dynamics {
             powers: vec![0.0; system.work_count()],
             bristle_errors: vec![0.0; system.bristle_count()],
             quadrature: Quadrature::new(system.work_count()),
+            switching: Switching::default(),
             state,
             state_scales: vec![SMALLEST_STATE; n - moving],
             shift: vec![0.0; moving],
@@ -208,6 +217,7 @@ impl Dynamics {
     /// Takes over the equations and history of `system`; its numbering must be that of before.
     pub(crate) fn start(&mut self, system: &System, formulation: Formulation, scales: Scales) {
         self.system.clone_from(system);
+        self.switching.start(&mut self.system);
         self.previous.clone_from(&system.history.frictions);
         self.formulation = formulation;
         self.present = formulation;
@@ -318,6 +328,7 @@ impl Dynamics {
             Formulation::Si2 => NEWTON_TOLERANCE,
             Formulation::I3 => INDEX3_NEWTON_TOLERANCE,
         };
+        let tolerance = tolerance * self.switching.newton_part();
         for iteration in 0..iterations {
             let renew = match usage {
                 MatrixUse::Kept => false,
@@ -424,6 +435,9 @@ impl Dynamics {
         let works = &mut self.state.values[range];
         self.quadrature
             .works(step.time, step.order, &self.powers, works);
+        let range = self.state.share_range();
+        let shares = &mut self.state.values[range];
+        self.switching.write_shares(&mut self.system, shares);
     }
 
     fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
@@ -435,12 +449,7 @@ impl Dynamics {
         for (impulse, multiplier) in self.impulses.iter_mut().zip(&self.multipliers) {
             *impulse = step.gamma * multiplier;
         }
-        let bodies = self.system.model.bodies.len();
-        for body in 0..bodies {
-            let q = self.state.orientation(body).normalized();
-            let place = POSITIONS * body + 3;
-            q.write(&mut self.state.values[place..place + 4]);
-        }
+        self.state.normalize();
         match self.present {
             Formulation::Si2 => self.positions_from_velocities(step),
             Formulation::I3 => {
@@ -455,10 +464,11 @@ impl bdf::System for Dynamics {
     type Failure = Failure;
 
     fn solve(&mut self, step: &bdf::Step<'_>, y: &mut [f64]) -> Result<(), Failure> {
+        self.switching.attempt(step.size, self.steps[1]);
         let stale = self
             .factored
             .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
-        let mut usage = if stale || self.rate > SLOW_RATE {
+        let mut usage = if stale || self.rate > SLOW_RATE || self.switching.slides() {
             MatrixUse::Renewed
         } else {
             MatrixUse::Kept
@@ -550,7 +560,17 @@ impl bdf::System for Dynamics {
                 norm = norm.max(d.abs() / error);
             }
         }
-        norm
+        norm.max(self.switching.norm(&difference[self.state.share_range()]))
+    }
+
+    fn judge(&mut self, step: &bdf::Step<'_>, _: &[f64], within: Within<'_>) -> Verdict {
+        if self.switching.is_empty() {
+            return Verdict::Accept;
+        }
+        let mut switching = std::mem::take(&mut self.switching);
+        let verdict = switching.judge(self, step, within);
+        self.switching = switching;
+        verdict
     }
 
     fn accepted(&mut self, step: &bdf::Step<'_>, _: &[f64]) {
@@ -562,5 +582,10 @@ impl bdf::System for Dynamics {
         self.system.remember_angles();
         self.scales.observe(self.state.velocities());
         raise(&mut self.state_scales, self.state.states());
+        if !self.switching.is_empty() {
+            self.switching.accepted(&mut self.system);
+            let rates = self.change.iter().map(|change| change / step.gamma);
+            self.switching.begin(rates, &self.multipliers);
+        }
     }
 }

@@ -7,7 +7,9 @@
 //! a program is built, so each derivative rule stands here once.
 
 mod functions;
+mod switches;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use numerics::interpolation::Surface;
@@ -15,6 +17,8 @@ use numerics::interpolation::Surface;
 use crate::scalar::Scalar;
 pub use functions::{Binary, Unary};
 use functions::{binary, binary_slopes, unary};
+use switches::Switch;
+pub(crate) use switches::{Branch, Sharing};
 
 /// Place of an operation's result.
 pub type Register = u32;
@@ -48,7 +52,10 @@ pub enum Operation {
     Unary(Unary, Register),
     /// A function of two registers.
     Binary(Binary, Register, Register),
-    /// IF: the first register decides between the other three (negative, zero, positive).
+    /// IF: the first register decides between the other three (negative, zero, positive). The
+    /// integrator looks for the jumps between them.
+    If(Register, Register, Register, Register),
+    /// The same where the choices meet: there is no jump to look for.
     Select(Register, Register, Register, Register),
     /// A derivative by x of a table of the program at `(x, z)`: table, order, x, z.
     Lookup(usize, usize, Register, Register),
@@ -61,7 +68,7 @@ impl Operation {
             Self::Constant(_) | Self::Input(_) => None,
             Self::Unary(_, a) => Some([a; 4]),
             Self::Binary(_, a, b) | Self::Lookup(_, _, a, b) => Some([a, b, a, b]),
-            Self::Select(a, b, c, d) => Some([a, b, c, d]),
+            Self::If(a, b, c, d) | Self::Select(a, b, c, d) => Some([a, b, c, d]),
         }
     }
 }
@@ -81,6 +88,10 @@ impl Operation {
 pub struct Program {
     operations: Vec<Operation>,
     tables: Vec<Arc<Surface>>,
+    /// Operations that jump.
+    switches: Vec<Switch>,
+    /// Whether some of them are not free.
+    holds: bool,
 }
 
 impl Program {
@@ -89,7 +100,7 @@ impl Program {
     pub fn constant(value: f64) -> Self {
         Self {
             operations: vec![Operation::Constant(value)],
-            tables: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -111,6 +122,7 @@ impl Program {
             } else {
                 operation
             });
+        self.note_switch();
         new
     }
 
@@ -170,10 +182,24 @@ impl Program {
     }
 
     pub(crate) fn run<T: Scalar>(&self, registers: &mut [T], read: impl Fn(Input) -> T) -> T {
-        for (place, operation) in self.operations.iter().enumerate() {
-            registers[place] = self.apply(*operation, |r| registers[r as usize], &read);
+        if self.holds {
+            self.run_held(registers, read);
+        } else {
+            self.run_range(0..self.operations.len(), registers, &read);
         }
         registers[self.operations.len() - 1]
+    }
+
+    fn run_range<T: Scalar>(
+        &self,
+        places: Range<usize>,
+        registers: &mut [T],
+        read: impl Fn(Input) -> T,
+    ) {
+        for place in places {
+            let operation = self.operations[place];
+            registers[place] = self.apply(operation, |r| registers[r as usize], &read);
+        }
     }
 
     fn apply<T: Scalar>(
@@ -190,7 +216,8 @@ impl Program {
                 at(a).chain(value, slope, curvature)
             }
             Operation::Binary(function, a, b) => binary(function, at(a), at(b)),
-            Operation::Select(a, negative, zero, positive) => {
+            Operation::If(a, negative, zero, positive)
+            | Operation::Select(a, negative, zero, positive) => {
                 at(select(at(a).value(), negative, zero, positive))
             }
             Operation::Lookup(table, order, x, z) => {
@@ -208,11 +235,22 @@ impl Program {
         &self,
         registers: &[f64],
         adjoints: &mut [f64],
-        mut derivative: impl FnMut(Input, f64),
+        derivative: impl FnMut(Input, f64),
     ) {
         let count = self.operations.len();
         adjoints[..count].fill(0.0);
         adjoints[count - 1] = 1.0;
+        self.sweep(count, registers, adjoints, derivative);
+    }
+
+    /// The sweep back over the first `count` operations, whose adjoints so far are given.
+    fn sweep(
+        &self,
+        count: usize,
+        registers: &[f64],
+        adjoints: &mut [f64],
+        mut derivative: impl FnMut(Input, f64),
+    ) {
         for place in (0..count).rev() {
             let adjoint = adjoints[place];
             if let Operation::Input(input) = self.operations[place] {
@@ -223,6 +261,12 @@ impl Program {
                 continue;
             }
             let at = |r: Register| registers[r as usize];
+            if let Some(branch) = self.held_branch(place) {
+                self.operations[place].branch_slopes(branch, at, |r, slope| {
+                    adjoints[r as usize] += adjoint * slope;
+                });
+                continue;
+            }
             match self.operations[place] {
                 Operation::Constant(_) | Operation::Input(_) => {}
                 Operation::Unary(function, a) => {
@@ -233,7 +277,8 @@ impl Program {
                     adjoints[a as usize] += adjoint * by_a;
                     adjoints[b as usize] += adjoint * by_b;
                 }
-                Operation::Select(a, negative, zero, positive) => {
+                Operation::If(a, negative, zero, positive)
+                | Operation::Select(a, negative, zero, positive) => {
                     adjoints[select(at(a), negative, zero, positive) as usize] += adjoint;
                 }
                 Operation::Lookup(table, order, x, z) => {

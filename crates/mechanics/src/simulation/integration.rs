@@ -6,10 +6,10 @@ use numerics::bdf::{self, Bdf};
 use super::failure::jammed;
 use super::report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
 use super::{Engine, Simulation};
-use crate::dynamics::{Dynamics, Formulation, Work};
+use crate::dynamics::{Dynamics, Formulation, Sliding, Work};
 use crate::instant::{Failure, Instant};
 use crate::rotation::Quaternion;
-use crate::state::{POSITIONS, VELOCITIES};
+use crate::state::VELOCITIES;
 
 /// Part of the error tolerance that the positions of I3 may use. Its test leaves velocities out,
 /// which lose an order; with this part they, too, stay near the tolerance.
@@ -33,11 +33,23 @@ impl Simulation {
             longest_step: settings.longest_step,
             shortest_step: settings.shortest_step,
         };
-        let mut engine = match self.engine.take() {
+        self.state.set_shares(self.system.switch_count());
+        let kept = self.engine.take();
+        let fits = |engine: &Engine| engine.bdf.value().len() == self.state.values.len();
+        let mut engine = match kept.filter(fits) {
             Some(engine) => engine,
             None => Engine::new(self, limits),
         };
         let ending = self.integrate(&mut engine, end, outputs, settings, limits, observer);
+        self.system.free_switches();
+        self.state.set_shares(0);
+        for sliding in engine.dynamics.take_slidings() {
+            let same =
+                |s: &&Sliding| (&s.element, s.function) == (&sliding.element, sliding.function);
+            if self.slidings.iter().find(same).is_none() {
+                self.slidings.push(sliding);
+            }
+        }
         self.engine = Some(engine);
         ending
     }
@@ -69,21 +81,21 @@ impl Simulation {
             Formulation::I3 => INDEX3_SHARE * settings.error,
         };
         dynamics.newton_iterations = settings.newton_iterations;
+        dynamics.steps = [settings.shortest_step, settings.longest_step];
         dynamics.observe(&self.state);
-        dynamics.multipliers.copy_from_slice(&self.multipliers);
+        dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
         bdf.set_settings(limits);
         let slope = self.slope();
         let first = match settings.first_step {
             Some(first) => first,
             None => self.first_step(instant, dynamics, &slope, end, settings),
         };
-        let powers = &slope[self.state.work_range()];
-        dynamics.start_works(self.state.time, self.state.works(), powers);
-        bdf.start(self.state.time, &self.state.values, &slope, first);
+        self.begin(bdf, dynamics, &slope, first);
         let mut next = 0;
         let mut ending = Ending::Completed;
         let (mut crossed, mut crossing) = (f64::NEG_INFINITY, false);
         while bdf.time() < end && ending == Ending::Completed {
+            let start = bdf.time();
             let advanced = bdf.advance(dynamics, end);
             self.scales = dynamics.scales;
             self.statistics = {
@@ -104,6 +116,11 @@ impl Simulation {
                 self.restart(bdf, dynamics, instant, settings)?;
                 dynamics.cross();
                 crossing = true;
+                continue;
+            }
+            if bdf.time() == start {
+                // A function jumps where the step would have begun.
+                self.pass_jump(bdf, dynamics, instant, end, settings)?;
                 continue;
             }
             let jam = gains.look_seldom(
@@ -137,6 +154,9 @@ impl Simulation {
                 crossing = false;
                 self.restart(bdf, dynamics, instant, settings)?;
             }
+            if dynamics.is_at_jump() {
+                self.pass_jump(bdf, dynamics, instant, end, settings)?;
+            }
         }
         if ending == Ending::Completed && self.state.time != end {
             self.take(bdf, dynamics, end, instant)?;
@@ -154,13 +174,40 @@ impl Simulation {
         settings: &Settings,
     ) -> Result<(), RunError> {
         self.take(bdf, dynamics, bdf.time(), instant)?;
-        dynamics.multipliers.copy_from_slice(&self.multipliers);
-        let first = 1e-3 * settings.longest_step;
+        dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
         let slope = self.slope();
+        self.begin(bdf, dynamics, &slope, 1e-3 * settings.longest_step);
+        Ok(())
+    }
+
+    /// Starts the integrator anew on the other side of the jump of a function.
+    fn pass_jump(
+        &mut self,
+        bdf: &mut Bdf,
+        dynamics: &mut Dynamics,
+        instant: &mut Instant,
+        end: f64,
+        settings: &Settings,
+    ) -> Result<(), RunError> {
+        let trial = 1e-3 * settings.longest_step;
+        let shares = dynamics.pass_jump(bdf.time(), bdf.value(), trial);
+        self.interpolate(bdf, dynamics, bdf.time());
+        let range = self.state.share_range();
+        self.state.values[range].copy_from_slice(&shares);
+        self.solve_within_step(dynamics, instant)?;
+        dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
+        let slope = self.slope();
+        let first = self.first_step(instant, dynamics, &slope, end, settings);
+        self.begin(bdf, dynamics, &slope, first);
+        Ok(())
+    }
+
+    /// Starts the integrator from the instant solved last.
+    fn begin(&self, bdf: &mut Bdf, dynamics: &mut Dynamics, slope: &[f64], first: f64) {
+        dynamics.multipliers.copy_from_slice(&self.multipliers);
         let powers = &slope[self.state.work_range()];
         dynamics.start_works(self.state.time, self.state.works(), powers);
-        bdf.start(self.state.time, &self.state.values, &slope, first);
-        Ok(())
+        bdf.start(self.state.time, &self.state.values, slope, first);
     }
 
     /// Brings the state onto the constraints and solves its accelerations and reactions.
@@ -209,6 +256,12 @@ impl Simulation {
         time: f64,
         instant: &mut Instant,
     ) -> Result<(), RunError> {
+        self.interpolate(bdf, dynamics, time);
+        self.solve_within_step(dynamics, instant)
+    }
+
+    /// State at `time` within the last accepted step, with a guess of accelerations and reactions.
+    fn interpolate(&mut self, bdf: &Bdf, dynamics: &Dynamics, time: f64) {
         bdf.interpolate(time, &mut self.state.values);
         self.state.time = time;
         self.relax_bristles(bdf, time);
@@ -216,11 +269,7 @@ impl Simulation {
         self.multipliers.copy_from_slice(&dynamics.multipliers);
         let rates = self.state.rate_range();
         bdf.interpolate_slope(time, rates, &mut self.accelerations);
-        for body in 0..self.state.bodies() {
-            let place = POSITIONS * body + 3;
-            let q = self.state.orientation(body).normalized();
-            q.write(&mut self.state.values[place..place + 4]);
-        }
+        self.state.normalize();
         self.system.history.clone_from(&dynamics.system.history);
         // Creep within the step counts from its start where the joint was stuck there, and back
         // from its end where the stick began within.
@@ -235,6 +284,15 @@ impl Simulation {
                 *memory = *previous;
             }
         }
+    }
+
+    /// Solves the interpolated instant, on that side of the jumps of functions on which it is.
+    fn solve_within_step(
+        &mut self,
+        dynamics: &Dynamics,
+        instant: &mut Instant,
+    ) -> Result<(), RunError> {
+        dynamics.lend_branches(&self.state, &mut self.system);
         self.settle(instant)?;
         let range = self.state.bristle_range();
         let deflections = &mut self.state.values[range];

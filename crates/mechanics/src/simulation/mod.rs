@@ -14,7 +14,7 @@ pub use report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
 pub use saved::{ForeignState, SavedState};
 
 use crate::assembly::{Assembly, AssemblyError};
-use crate::dynamics::{Dynamics, Scales};
+use crate::dynamics::{Dynamics, Scales, Sliding};
 use crate::gain::GainWatch;
 use crate::instant::Instant;
 use crate::model::{Element, Level, Model};
@@ -36,6 +36,8 @@ pub struct Simulation {
     /// What the formula said of the bristles at the present instant, see [`Simulation::take`].
     bristle_past: Vec<f64>,
     bristle_gamma: f64,
+    /// Jumps of functions that the motion has stayed at.
+    slidings: Vec<Sliding>,
     /// Storage and matrix patterns, kept between runs of the same equations.
     engine: Option<Engine>,
 }
@@ -83,6 +85,7 @@ impl Simulation {
             multipliers: system.first_multipliers(),
             scales,
             statistics: Statistics::default(),
+            slidings: Vec::new(),
             engine: None,
             system,
         }
@@ -190,6 +193,13 @@ impl Simulation {
     #[must_use]
     pub fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    /// Where functions jump and the motion has stayed at the jump, each named once, in the order of
+    /// time.
+    #[must_use]
+    pub fn slidings(&self) -> &[Sliding] {
+        &self.slidings
     }
 
     /// The present instant, as it was solved last.

@@ -118,6 +118,7 @@ impl Simulation {
             statistics: self.statistics,
             bristle_past: saved.bristle_past.clone(),
             bristle_gamma: saved.bristle_gamma,
+            slidings: std::mem::take(&mut self.slidings),
             engine: None,
         };
         Ok(())

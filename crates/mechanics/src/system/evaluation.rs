@@ -54,7 +54,7 @@ impl System {
         }
     }
 
-    fn evaluate_slopes(&mut self) {
+    pub(super) fn evaluate_slopes(&mut self) {
         for place in 0..self.model.measures.len() {
             let quantity = self.model.measures[place].quantity;
             if !self.needed[place] || quantity.order() == Order::Acceleration {

@@ -33,6 +33,7 @@ mod inputs;
 mod newton_matrix;
 mod reactions;
 mod single_force;
+mod switches;
 mod works;
 
 use crate::constraint::{Constraint, Evaluated, Form, Owner, list};
@@ -47,6 +48,7 @@ use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
 pub(crate) use newton_matrix::Weights;
 use serde::{Deserialize, Serialize};
+pub(crate) use switches::{Reading, SwitchPlace, Units};
 
 /// Which equations the constraint rows of the Newton matrix belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::history::HIGHEST_ORDER;
-use super::{History, Step, System};
+use super::{History, Step, System, Verdict};
 
 /// Limits that the caller sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -187,7 +187,7 @@ impl Bdf {
         self.last_gamma
     }
 
-    /// Takes one step, not beyond `stop`.
+    /// Takes one step, not beyond `stop`; none where the system abandons it.
     ///
     /// # Errors
     /// [`Error`] when the step size fell below the shortest allowed; the last accepted values stay.
@@ -200,10 +200,14 @@ impl Bdf {
         let remaining = stop - start;
         let mut failures = 0;
         let mut rejections = 0;
+        // Where the system wants the step to end.
+        let mut end = None;
         loop {
             let wanted = self.size.min(self.settings.longest_step);
             // Landing on the stop must not leave a sliver of a step for the next one.
-            let (size, time) = if wanted >= remaining * (1.0 - 1e-9) {
+            let (size, time) = if let Some(end) = end.take() {
+                (end - start, end)
+            } else if wanted >= remaining * (1.0 - 1e-9) {
                 (remaining, stop)
             } else if 2.0 * wanted > remaining {
                 (0.5 * remaining, start + 0.5 * remaining)
@@ -275,6 +279,26 @@ impl Bdf {
                 history: &self.formula,
                 prediction: &self.prediction,
             };
+            let history = &self.history;
+            let span = history.product(predictor + 1, time);
+            let mut within = |t: f64, out: &mut [f64]| {
+                history.evaluate(predictor, t, out);
+                let share = history.product(predictor + 1, t) / span;
+                for (out, error) in out.iter_mut().zip(&self.error) {
+                    *out += share * error;
+                }
+            };
+            match system.judge(&step, &self.value, &mut within) {
+                Verdict::Accept => {}
+                Verdict::EndAt(time) => {
+                    end = Some(time);
+                    continue;
+                }
+                Verdict::Abandon => {
+                    self.history.evaluate(0, start, &mut self.value);
+                    return Ok(());
+                }
+            }
             system.accepted(&step, &self.value);
             self.history.push(time, &self.value);
             self.statistics.steps += 1;

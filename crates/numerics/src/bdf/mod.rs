@@ -36,6 +36,20 @@ pub struct Step<'a> {
     pub prediction: &'a [f64],
 }
 
+/// Values at a time within a step, written to a slice of their number.
+pub type Within<'a> = &'a mut dyn FnMut(f64, &mut [f64]);
+
+/// What becomes of a step that passed the error test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// It is accepted.
+    Accept,
+    /// It is solved again to end at this time, which is within it or its end.
+    EndAt(f64),
+    /// It is not taken: the system starts anew from where the step began.
+    Abandon,
+}
+
 /// Equations that the integrator steps through time.
 pub trait System {
     /// Why a step could not be solved.
@@ -50,6 +64,16 @@ pub trait System {
     /// Size of `difference` (between two values of `y`) in units of the error tolerance: at most
     /// one is acceptable. Components that must not take part in the error test count nothing.
     fn norm(&self, difference: &[f64]) -> f64;
+
+    /// Looks at a step that passed the error test, before it is accepted. `within(t, out)` gives the
+    /// values at a time within the step, to its order.
+    ///
+    /// Functions that jump are smooth within a step that keeps to one side of the jump; where the
+    /// step has gone over it, it must end there (Hairer, Nørsett, Wanner, *Solving Ordinary
+    /// Differential Equations I*, section II.6).
+    fn judge(&mut self, _: &Step<'_>, _: &[f64], _within: Within<'_>) -> Verdict {
+        Verdict::Accept
+    }
 
     /// Told once for every step that passed the error test.
     fn accepted(&mut self, step: &Step<'_>, y: &[f64]);

@@ -469,7 +469,7 @@ impl Compiler {
             F::Mod => self.binary(Binary::Modulo, x[0], x[1]),
             F::Sign => self.binary(Binary::Sign, x[0], x[1]),
             F::Dim => composite::dim(&mut self.program, x[0], x[1]),
-            F::If => self.program.push(Operation::Select(x[0], x[1], x[2], x[3])),
+            F::If => self.program.push(Operation::If(x[0], x[1], x[2], x[3])),
             F::Step => composite::step(&mut self.program, Unary::CubicStep, x),
             F::Step5 => composite::step(&mut self.program, Unary::QuinticStep, x),
             F::Havsin => composite::step(&mut self.program, Unary::Haversine, x),

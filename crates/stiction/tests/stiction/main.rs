@@ -32,5 +32,6 @@ mod runs;
 mod saving;
 mod shared;
 mod statics;
+mod switches;
 mod table;
 mod unknowns;

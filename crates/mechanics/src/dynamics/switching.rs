@@ -1,0 +1,643 @@
+//! Functions that jump, met where they jump.
+//!
+//! A step holds every switch (see [`crate::expression`]) in the cell in which it begins, so that the
+//! equations are smooth within it. Where the argument of a switch has left its cell at the end of a
+//! step that would be accepted, the place is looked for on the polynomial through the step, and the
+//! step is solved again to end just behind it; there the switch is turned over, and the integrator
+//! starts anew (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, section II.6).
+//! *Just behind* is within the error that the tolerance allows in the argument: its *width*.
+//!
+//! A switch that turns back before it has gone farther than a few widths is pushed back to its jump
+//! from both sides: the motion stays there, with a force between those of the two sides that holds it
+//! (A. F. Filippov, *Differential Equations with Discontinuous Righthand Sides*, 1988). Then the jump
+//! becomes a straight transition from one width before it to one behind, which an implicit step
+//! takes as it is. The motion leaves where the share of one side has come to zero.
+//!
+//! A switch that only bends its function, or less, is stepped over like any other bend.
+
+use numerics::bdf::{self, Verdict, Within};
+
+use super::Dynamics;
+use crate::expression::{Branch, Sharing};
+use crate::model::Label;
+use crate::state::State;
+use crate::system::{Reading, SwitchPlace, System, Units};
+
+/// Solutions for one jump, at most.
+const LOCATIONS: usize = 8;
+/// Part of the width behind a jump at which it is looked for.
+const AIM: f64 = 0.02;
+/// A switch that turns back within so many widths has not left its jump,
+const NEAR: f64 = 4.0;
+/// and after so many times it is held there.
+const RETURNS: usize = 2;
+/// So many turns within a trial step make the width this many times larger: then rounding, not the
+/// motion, turns the switch over, or a jump so fast that nothing but its mean shows.
+const TURNS: usize = 20;
+const WIDENING: f64 = 10.0;
+/// Error of the share of a held switch that a step may make; it is that of the force as a part of its
+/// jump.
+const SHARE_ERROR: f64 = 1e-3;
+/// Steps behind a jump in which the shares are not tested.
+const FIRST_STEPS: usize = 3;
+/// Steps below this part of the longest have no test of the shares.
+const SHORT: f64 = 1e-3;
+/// Share beyond 0 or 1 at which a switch may leave its jump.
+const LEAVING: f64 = 1e-5;
+/// A jump below this part of what the sides differ by elsewhere is a bend.
+const BEND: f64 = 1e-3;
+/// A jump this part of a step behind its beginning, or less than the shortest step, is at its
+/// beginning.
+const AT_START: f64 = 1e-10;
+/// Switches that are turned over without a step between, before a step goes over them.
+const STILL: usize = 20;
+/// Evaluations to find a root.
+const ROOT: usize = 200;
+
+/// A motion that stays where a function jumps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sliding {
+    /// The element that the function belongs to.
+    pub element: Label,
+    /// The name of the function that jumps, in the dataset language.
+    pub function: &'static str,
+    /// Time from which it was held first.
+    pub time: f64,
+    /// How near to the jump its argument is held, in the unit of the argument.
+    pub width: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Switch {
+    place: SwitchPlace,
+    /// Whether its argument depends on nothing but time.
+    of_time: bool,
+    /// Whether a bend of it, too, is to be met.
+    constrains: bool,
+    branch: Branch,
+    /// The cell that it goes to after the present step.
+    target: Option<f64>,
+    /// Whether it was turned over at the present instant.
+    turned: bool,
+    /// Error of the argument that the tolerance allows.
+    width: f64,
+    /// How far within its cell it has been.
+    reach: f64,
+    /// How often it has turned back within a few widths, one time after the other.
+    returns: usize,
+    /// How much wider than the tolerance allows it is.
+    widening: f64,
+    /// Turns since a time.
+    turns: usize,
+    since: f64,
+    /// Most that the sides of its jump differed by.
+    largest_jump: f64,
+}
+
+impl Switch {
+    /// How far it is outside of its cell.
+    fn outside(&self, system: &System, argument: f64) -> f64 {
+        match self.branch {
+            Branch::Free => f64::NEG_INFINITY,
+            Branch::Held(cell) => system.outside_cell(self.place, cell, argument),
+            Branch::Shared(sharing) => {
+                ((sharing.at(argument) - 0.5).abs() - 0.5) / sharing.steepness
+            }
+        }
+    }
+
+    /// The cell that it has left its own for.
+    fn left_for(&self, system: &System, argument: f64) -> Option<f64> {
+        match self.branch {
+            Branch::Free => None,
+            Branch::Held(cell) => {
+                let now = system.switch_cell(self.place, argument);
+                // The point of an IF at which its argument is zero is on the way to the other side.
+                let arrives = now == 0.0 && self.outside(system, argument) <= 0.0;
+                (now != cell && !arrives && !argument.is_nan()).then_some(now)
+            }
+            Branch::Shared(sharing) => {
+                let share = sharing.at(argument);
+                if share > 1.0 {
+                    Some(sharing.upper)
+                } else {
+                    (share < 0.0).then_some(sharing.lower)
+                }
+            }
+        }
+    }
+
+    /// How far behind its jump it may be turned over.
+    fn tolerance(&self) -> f64 {
+        match self.branch {
+            Branch::Shared(sharing) => LEAVING / sharing.steepness,
+            Branch::Held(_) | Branch::Free => self.width,
+        }
+    }
+}
+
+/// The switches of a model while it is integrated.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Switching {
+    switches: Vec<Switch>,
+    readings: Vec<Reading>,
+    /// Where the present step has been cut, and how often.
+    located: Option<f64>,
+    locations: usize,
+    /// Switches turned over since the last accepted step.
+    still: usize,
+    /// Steps since the integrator has started, and whether the present one is short.
+    steps: usize,
+    short: bool,
+    /// Whether some are to be turned over now.
+    due: bool,
+    /// Rates and multipliers at the beginning of the step, and at an instant within.
+    rates: [Vec<f64>; 2],
+    multipliers: [Vec<f64>; 2],
+    slidings: Vec<Sliding>,
+}
+
+impl Switching {
+    /// Begins anew with the switches of a system that is evaluated at an instant.
+    pub(super) fn start(&mut self, system: &mut System) {
+        self.switches.clear();
+        for place in system.switches() {
+            let branch = if system.switch_acts(place) {
+                Branch::Held(0.0)
+            } else {
+                Branch::Free
+            };
+            self.switches.push(Switch {
+                place,
+                of_time: system.is_switch_of_time(place),
+                constrains: system.switch_constrains(place),
+                branch,
+                target: None,
+                turned: false,
+                width: 0.0,
+                reach: 0.0,
+                returns: 0,
+                widening: 1.0,
+                turns: 0,
+                since: f64::NEG_INFINITY,
+                largest_jump: 0.0,
+            });
+        }
+        self.readings = vec![Reading::default(); self.switches.len()];
+        self.due = false;
+        self.still = 0;
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.switches.is_empty()
+    }
+
+    /// Whether a switch is held at its jump.
+    pub(super) fn slides(&self) -> bool {
+        self.switches
+            .iter()
+            .any(|s| matches!(s.branch, Branch::Shared(_)))
+    }
+
+    /// Begins a step of `size`, where the longest is `longest`.
+    pub(super) fn attempt(&mut self, size: f64, longest: f64) {
+        self.short = size < SHORT * longest;
+    }
+
+    /// Part of the usual tolerance that Newton's iteration has to meet: a step across the transition
+    /// of a held switch is within the tolerance, and its share is to be found.
+    pub(super) fn newton_part(&self) -> f64 {
+        if self.slides() { SHARE_ERROR } else { 1.0 }
+    }
+
+    fn read(&mut self, system: &mut System) {
+        system.read_switches(self.switches.iter().map(|s| s.place), &mut self.readings);
+    }
+
+    fn set_branch(&mut self, k: usize, branch: Branch, system: &mut System) {
+        self.switches[k].branch = branch;
+        system.set_branch(self.switches[k].place, branch);
+    }
+
+    /// The cell that switch `k` has left its own for, by what was read last.
+    fn left_for(&self, k: usize, system: &System) -> Option<f64> {
+        self.switches[k].left_for(system, self.readings[k].argument)
+    }
+
+    fn any_left(&self, system: &System) -> bool {
+        (0..self.switches.len()).any(|k| self.left_for(k, system).is_some())
+    }
+
+    /// Looks at a step that passed the error test and is evaluated at its end.
+    pub(super) fn judge(
+        &mut self,
+        dynamics: &mut Dynamics,
+        step: &bdf::Step<'_>,
+        within: Within<'_>,
+    ) -> Verdict {
+        self.read(&mut dynamics.system);
+        if !self.any_left(&dynamics.system) {
+            return Verdict::Accept;
+        }
+        let cut = self.located == Some(step.time);
+        let mut met = true;
+        for k in 0..self.switches.len() {
+            if self.left_for(k, &dynamics.system).is_none() {
+                continue;
+            }
+            let switch = &mut self.switches[k];
+            switch.largest_jump = switch.largest_jump.max(self.readings[k].jump);
+            if !switch.of_time {
+                let units = Units {
+                    length: dynamics.scales.length,
+                    rate: dynamics.scales.rate,
+                    states: &dynamics.state_scales,
+                };
+                let unit = dynamics.system.switch_unit(switch.place, &units);
+                switch.width = switch.widening * dynamics.tolerance * unit;
+            }
+            let outside = switch.outside(&dynamics.system, self.readings[k].argument);
+            let near = outside <= switch.tolerance();
+            met &= near || cut && (switch.of_time || self.locations >= LOCATIONS);
+        }
+        let start = step.time - step.size;
+        let time = if met {
+            step.time
+        } else {
+            self.locate(dynamics, step, within)
+        };
+        if self.release_bends(&mut dynamics.system) {
+            self.located = None;
+            return Verdict::EndAt(step.time);
+        }
+        if time - start <= (AT_START * step.size).max(dynamics.steps[0]) {
+            self.still += 1;
+            if self.still > STILL {
+                // No order of turning them over leads on.
+                self.release_left(&mut dynamics.system);
+                return Verdict::EndAt(step.time);
+            }
+            self.turn_left(&dynamics.system);
+            return Verdict::Abandon;
+        }
+        if !met {
+            self.located = Some(time);
+            self.locations = if time < step.time {
+                self.locations + 1
+            } else {
+                LOCATIONS
+            };
+            return Verdict::EndAt(time);
+        }
+        self.turn_left(&dynamics.system);
+        Verdict::Accept
+    }
+
+    /// The switches that have left their cell go where they are, after the step.
+    fn turn_left(&mut self, system: &System) {
+        for k in 0..self.switches.len() {
+            self.switches[k].target = self.left_for(k, system);
+        }
+        self.due = true;
+    }
+
+    /// Lets go, for this step, of what has left its cell.
+    fn release_left(&mut self, system: &mut System) {
+        for k in 0..self.switches.len() {
+            if self.left_for(k, system).is_some() {
+                self.set_branch(k, Branch::Free, system);
+            }
+        }
+    }
+
+    /// Lets go, for this step, of what only bends where it has left its cell; whether there was any.
+    fn release_bends(&mut self, system: &mut System) -> bool {
+        let mut any = false;
+        for k in 0..self.switches.len() {
+            let switch = &self.switches[k];
+            let held = matches!(switch.branch, Branch::Held(_)) && !switch.constrains;
+            let bends = self.readings[k].jump <= BEND * switch.largest_jump;
+            if held && bends && self.left_for(k, system).is_some() {
+                self.set_branch(k, Branch::Free, system);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// The first time within a step at which a switch is just behind its jump. What was read last is
+    /// then of that time.
+    fn locate(&mut self, dynamics: &mut Dynamics, step: &bdf::Step<'_>, within: Within<'_>) -> f64 {
+        self.rates[1].clone_from(&dynamics.change);
+        for rate in &mut self.rates[1] {
+            *rate /= step.gamma;
+        }
+        self.multipliers[1].clone_from(&dynamics.multipliers);
+        let mut end = step.time;
+        for k in 0..self.switches.len() {
+            if self.left_for(k, &dynamics.system).is_some() {
+                end = self.root(k, end, dynamics, step, within);
+                self.evaluate(end, false, dynamics, step, within);
+                self.read(&mut dynamics.system);
+            }
+        }
+        end
+    }
+
+    /// A time before `end`, at which switch `k` has left its cell, at which it has just done so: by
+    /// false position (Illinois), with a bisection in between.
+    fn root(
+        &mut self,
+        k: usize,
+        end: f64,
+        dynamics: &mut Dynamics,
+        step: &bdf::Step<'_>,
+        within: Within<'_>,
+    ) -> f64 {
+        let of_time = self.switches[k].of_time;
+        let mut outside = |time: f64, switching: &mut Self| {
+            switching.evaluate(time, of_time, dynamics, step, within);
+            let place = switching.switches[k].place;
+            let reading = &mut switching.readings[k..=k];
+            dynamics
+                .system
+                .read_switches(std::iter::once(place), reading);
+            let argument = reading[0].argument;
+            let switch = &switching.switches[k];
+            let left = switch.left_for(&dynamics.system, argument).is_some();
+            (switch.outside(&dynamics.system, argument), left)
+        };
+        let (mut a, mut b) = (step.time - step.size, end);
+        let (mut fa, left) = outside(a, self);
+        if left {
+            return a;
+        }
+        let (mut fb, _) = outside(b, self);
+        let rounding = 4.0 * f64::EPSILON * b.abs();
+        let tolerance = if of_time {
+            rounding * (fb - fa) / (b - a)
+        } else {
+            self.switches[k].tolerance()
+        };
+        let aim = AIM * tolerance;
+        (fa, fb) = (fa - aim, fb - aim);
+        let mut behind = fb + aim;
+        let mut stays = 0;
+        for n in 0..ROOT {
+            if behind <= tolerance || b - a <= rounding {
+                break;
+            }
+            let secant = b - fb * (b - a) / (fb - fa);
+            let c = if n % 3 == 2 || !(a < secant && secant < b) {
+                0.5 * (a + b)
+            } else {
+                secant
+            };
+            let (value, left) = outside(c, self);
+            if left {
+                (b, fb, behind) = (c, value - aim, value);
+                fa *= if stays > 0 { 0.5 } else { 1.0 };
+                stays = 1;
+            } else {
+                (a, fa) = (c, value - aim);
+                fb *= if stays < 0 { 0.5 } else { 1.0 };
+                stays = -1;
+            }
+        }
+        b
+    }
+
+    /// Evaluates the system at a time within a step; rates, reactions and variables change evenly.
+    fn evaluate(
+        &mut self,
+        time: f64,
+        time_alone: bool,
+        dynamics: &mut Dynamics,
+        step: &bdf::Step<'_>,
+        within: Within<'_>,
+    ) {
+        if time_alone {
+            dynamics.system.set_time(time);
+            return;
+        }
+        dynamics.state.time = time;
+        within(time, &mut dynamics.state.values);
+        dynamics.state.normalize();
+        dynamics.system.evaluate(&dynamics.state, false);
+        let left = (step.time - time) / step.size;
+        let mix = |[start, end]: &[Vec<f64>; 2], out: &mut [f64]| {
+            for (out, (start, end)) in out.iter_mut().zip(start.iter().zip(end)) {
+                *out = left * start + (1.0 - left) * end;
+            }
+        };
+        mix(&self.rates, &mut dynamics.change);
+        mix(&self.multipliers, &mut dynamics.trial);
+        dynamics
+            .system
+            .set_solution(&dynamics.change, 1.0, &dynamics.trial);
+    }
+
+    /// Takes over the end of an accepted step, which the switches were judged at.
+    pub(super) fn accepted(&mut self, system: &mut System) {
+        self.located = None;
+        self.locations = 0;
+        self.still = 0;
+        self.steps += 1;
+        for k in 0..self.switches.len() {
+            let Reading { argument, jump } = self.readings[k];
+            let switch = &mut self.switches[k];
+            switch.largest_jump = switch.largest_jump.max(jump);
+            match switch.branch {
+                Branch::Free if system.switch_acts(switch.place) => {
+                    let cell = system.switch_cell(switch.place, argument);
+                    self.set_branch(k, Branch::Held(cell), system);
+                }
+                Branch::Held(cell) => {
+                    let within = -system.outside_cell(switch.place, cell, argument);
+                    switch.reach = switch.reach.max(within);
+                }
+                Branch::Free | Branch::Shared(_) => {}
+            }
+        }
+    }
+
+    /// Keeps the solution at the beginning of the next step.
+    pub(super) fn begin(&mut self, rates: impl Iterator<Item = f64>, multipliers: &[f64]) {
+        self.rates[0].clear();
+        self.rates[0].extend(rates);
+        self.multipliers[0].clear();
+        self.multipliers[0].extend_from_slice(multipliers);
+    }
+
+    pub(super) fn is_due(&self) -> bool {
+        self.due
+    }
+
+    /// Turns over what has left its cell.
+    fn turn(&mut self, system: &mut System, time: f64, trial: f64) {
+        self.due = false;
+        for k in 0..self.switches.len() {
+            let switch = &mut self.switches[k];
+            let Some(to) = switch.target.take() else {
+                continue;
+            };
+            switch.turned = true;
+            switch.turns += 1;
+            if time - switch.since > trial {
+                (switch.since, switch.turns) = (time, 0);
+            } else if switch.turns >= TURNS {
+                (switch.since, switch.turns) = (time, 0);
+                switch.widening *= WIDENING;
+            }
+            let mut branch = Branch::Held(to);
+            if let Branch::Held(from) = switch.branch {
+                let back = !switch.of_time && switch.reach <= NEAR * switch.width;
+                switch.returns = if back { switch.returns + 1 } else { 0 };
+                if switch.returns >= RETURNS && switch.width > 0.0 {
+                    let (lower, upper, boundary) = system.switch_sides(switch.place, [from, to]);
+                    branch = Branch::Shared(Sharing {
+                        lower,
+                        upper,
+                        share: 0.5,
+                        steepness: 0.5 / switch.width,
+                        boundary,
+                    });
+                    let sliding = Sliding {
+                        element: system.switch_label(switch.place).clone(),
+                        function: system.switch_name(switch.place),
+                        time,
+                        width: switch.width,
+                    };
+                    let same = |s: &Sliding| {
+                        (&s.element, s.function) == (&sliding.element, sliding.function)
+                    };
+                    if !self.slidings.iter().any(same) {
+                        self.slidings.push(sliding);
+                    }
+                }
+            }
+            self.switches[k].reach = 0.0;
+            self.set_branch(k, branch, system);
+        }
+    }
+
+    /// Writes the shares of the switches that are held at their jump, at the instant evaluated last.
+    pub(super) fn write_shares(&mut self, system: &mut System, shares: &mut [f64]) {
+        if !self.slides() {
+            shares.fill(0.0);
+            return;
+        }
+        self.read(system);
+        for ((share, switch), reading) in shares.iter_mut().zip(&self.switches).zip(&self.readings)
+        {
+            *share = match switch.branch {
+                Branch::Shared(sharing) => sharing.at(reading.argument),
+                Branch::Free | Branch::Held(_) => 0.0,
+            };
+        }
+    }
+
+    /// Shares to start with from those that hold, zero for switches that are not held at their jump.
+    fn shares(&self, shares: &[f64]) -> Vec<f64> {
+        let share = |(switch, share): (&Switch, &f64)| match switch.branch {
+            Branch::Shared(_) => share.clamp(0.0, 1.0),
+            Branch::Free | Branch::Held(_) => 0.0,
+        };
+        self.switches.iter().zip(shares).map(share).collect()
+    }
+
+    /// Size of a change of the shares in units of the error that a step may make. Behind a
+    /// jump they adapt at once, which the first steps are not to resolve; and short steps have shares
+    /// made of rounding, whose argument is off by that part of its width.
+    pub(super) fn norm(&self, shares: &[f64]) -> f64 {
+        if self.steps < FIRST_STEPS || self.short {
+            return 0.0;
+        }
+        shares.iter().fold(0.0_f64, |norm, d| norm.max(d.abs())) / SHARE_ERROR
+    }
+
+    /// Lets another system evaluate the instant of `state` as it is: free, but for those switches
+    /// that are held at their jump, and those that were turned over here, on whose new side it is.
+    pub(super) fn lend(&self, state: &State, system: &mut System) {
+        let shares = &state.values[state.share_range()];
+        for (switch, share) in self.switches.iter().zip(shares) {
+            let branch = match switch.branch {
+                Branch::Shared(sharing) => Branch::Shared(Sharing {
+                    share: share.clamp(0.0, 1.0),
+                    steepness: 0.0,
+                    ..sharing
+                }),
+                branch if switch.turned => branch,
+                _ => Branch::Free,
+            };
+            system.set_branch(switch.place, branch);
+        }
+    }
+
+    /// Holds the switches of `own` where those of `system` are at an instant that it has solved, but
+    /// for those that were turned over or are at their jump.
+    pub(super) fn hold(&mut self, system: &mut System, own: &mut System) {
+        self.steps = 0;
+        self.read(system);
+        for k in 0..self.switches.len() {
+            let switch = &mut self.switches[k];
+            let turned = std::mem::take(&mut switch.turned);
+            if !turned && matches!(switch.branch, Branch::Held(_)) {
+                let cell = own.switch_cell(switch.place, self.readings[k].argument);
+                self.set_branch(k, Branch::Held(cell), own);
+            }
+        }
+    }
+}
+
+impl Dynamics {
+    /// Whether functions jump here: the integrator has to start anew.
+    pub(crate) fn is_at_jump(&self) -> bool {
+        self.switching.is_due()
+    }
+
+    /// Turns over the switches that have come to their jump, at the time and values of the
+    /// integrator; returns the shares on the other side, which a trial step of `size` finds.
+    pub(crate) fn pass_jump(&mut self, time: f64, values: &[f64], size: f64) -> Vec<f64> {
+        let range = self.state.share_range();
+        self.switching.turn(&mut self.system, time, size);
+        // With the matrix of a stiff side no iteration moves on a soft one.
+        self.factored = None;
+        let mut solved = values.to_vec();
+        if self.switching.slides() {
+            let step = bdf::Step {
+                time: time + size,
+                size,
+                order: 1,
+                gamma: size,
+                history: values,
+                prediction: values,
+            };
+            // Without a solution the steps that follow find the shares, in more of them.
+            let _ = bdf::System::solve(self, &step, &mut solved);
+        }
+        self.switching.shares(&solved[range])
+    }
+
+    /// See [`Switching::lend`].
+    pub(crate) fn lend_branches(&self, state: &State, system: &mut System) {
+        self.switching.lend(state, system);
+    }
+
+    /// See [`Switching::hold`]; `accelerations` and `multipliers` are the solution there.
+    pub(crate) fn hold_switches(
+        &mut self,
+        system: &mut System,
+        accelerations: &[f64],
+        multipliers: &[f64],
+    ) {
+        self.switching.hold(system, &mut self.system);
+        self.switching
+            .begin(accelerations.iter().copied(), multipliers);
+    }
+
+    /// Where the motion has come to stay at jumps of functions, since it was asked last.
+    pub(crate) fn take_slidings(&mut self) -> Vec<Sliding> {
+        std::mem::take(&mut self.switching.slidings)
+    }
+}

@@ -1,0 +1,366 @@
+//! Functions that jump, and how they are evaluated beside their jumps.
+//!
+//! IF, SIGN, MOD, AINT and ANINT cut the numbers into *cells* by the value of an *argument*; within
+//! each cell they are as smooth as what they read:
+//!
+//! ```text
+//! IF(x: a, b, c)   argument x      cells −1 (x < 0), 0 (x = 0), 1 (x > 0)
+//! SIGN(a, x)       argument x      cells −1 (x < 0), 1
+//! AINT(x)          argument x      cells …, −1, 0, 1, … of the integer part
+//! ANINT(x)         argument x      cells of the nearest integer
+//! MOD(x, y)        argument x/y    cells of its integer part
+//! ```
+//!
+//! An integrator holds each such *switch* in its cell while it steps, so that the program is smooth,
+//! and looks where the argument leaves the cell.
+
+use super::{Binary, Input, Operation, Program, Register, Unary};
+use crate::scalar::Scalar;
+
+/// How a switch is evaluated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Branch {
+    /// By the value of its argument.
+    #[default]
+    Free,
+    /// As in this cell, whatever the argument.
+    Held(f64),
+    /// Between two cells.
+    Shared(Sharing),
+}
+
+/// A switch between two cells: `(1 − s) f_lower + s f_upper` with `s = share + steepness (x − boundary)`
+/// at the argument x. The share is not cut off at 0 and 1, so that the function stays smooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sharing {
+    /// The cell below the boundary.
+    pub(crate) lower: f64,
+    /// The cell above it.
+    pub(crate) upper: f64,
+    /// Share of the upper cell at the boundary.
+    pub(crate) share: f64,
+    /// Slope of the share by the argument.
+    pub(crate) steepness: f64,
+    /// Argument at which the cells meet.
+    pub(crate) boundary: f64,
+}
+
+impl Sharing {
+    /// Share of the upper cell at this argument.
+    pub(crate) fn at(&self, argument: f64) -> f64 {
+        self.share + self.steepness * (argument - self.boundary)
+    }
+}
+
+/// A place where a program may jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Switch {
+    place: usize,
+    branch: Branch,
+}
+
+impl Operation {
+    fn jumps(self) -> bool {
+        matches!(
+            self,
+            Self::If(..)
+                | Self::Unary(Unary::Truncate | Unary::Round, _)
+                | Self::Binary(Binary::Sign | Binary::Modulo, ..)
+        )
+    }
+
+    /// The register of the argument and, where there is one, that of its divisor.
+    fn argument(self) -> (Register, Option<Register>) {
+        match self {
+            Self::Binary(Binary::Modulo, x, y) => (x, Some(y)),
+            Self::Binary(_, _, x) | Self::If(x, ..) | Self::Unary(_, x) => (x, None),
+            // No other operation jumps.
+            _ => (0, None),
+        }
+    }
+
+    /// The cell of an argument.
+    fn cell(self, x: f64) -> f64 {
+        match self {
+            Self::If(..) if x == 0.0 || x.is_nan() => 0.0,
+            Self::If(..) => x.signum(),
+            Self::Binary(Binary::Sign, ..) => {
+                if x < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                }
+            }
+            Self::Unary(Unary::Round, _) => x.round(),
+            _ => x.trunc(),
+        }
+    }
+
+    /// Ends of a cell.
+    fn ends(self, cell: f64) -> (f64, f64) {
+        match self {
+            Self::If(..) | Self::Binary(Binary::Sign, ..) => (
+                if cell < 0.0 { f64::NEG_INFINITY } else { 0.0 },
+                if cell > 0.0 { f64::INFINITY } else { 0.0 },
+            ),
+            Self::Unary(Unary::Round, _) => (cell - 0.5, cell + 0.5),
+            _ => (
+                if cell > 0.0 { cell } else { cell - 1.0 },
+                if cell < 0.0 { cell } else { cell + 1.0 },
+            ),
+        }
+    }
+
+    /// The value as in a cell.
+    fn in_cell<T: Scalar>(self, cell: f64, at: impl Fn(Register) -> T) -> T {
+        match self {
+            Self::If(_, negative, zero, positive) => at(if cell < 0.0 {
+                negative
+            } else if cell > 0.0 {
+                positive
+            } else {
+                zero
+            }),
+            Self::Binary(Binary::Modulo, x, y) => at(x) - at(y) * T::constant(cell),
+            Self::Binary(_, a, _) => {
+                let keep = (at(a).value() < 0.0) == (cell < 0.0);
+                if keep { at(a) } else { -at(a) }
+            }
+            _ => T::constant(cell),
+        }
+    }
+
+    /// Calls `add(register, slope)` for what the value as in a cell reads.
+    fn cell_slopes(
+        self,
+        cell: f64,
+        at: impl Fn(Register) -> f64,
+        mut add: impl FnMut(Register, f64),
+    ) {
+        match self {
+            Self::If(_, negative, zero, positive) => add(
+                if cell < 0.0 {
+                    negative
+                } else if cell > 0.0 {
+                    positive
+                } else {
+                    zero
+                },
+                1.0,
+            ),
+            Self::Binary(Binary::Modulo, x, y) => {
+                add(x, 1.0);
+                add(y, -cell);
+            }
+            Self::Binary(_, a, _) => {
+                let keep = (at(a) < 0.0) == (cell < 0.0);
+                add(a, if keep { 1.0 } else { -1.0 });
+            }
+            _ => {}
+        }
+    }
+
+    /// Calls `add(register, slope)` for what the argument reads.
+    fn argument_slopes(self, at: impl Fn(Register) -> f64, mut add: impl FnMut(Register, f64)) {
+        match self.argument() {
+            (x, Some(y)) => {
+                add(x, 1.0 / at(y));
+                add(y, -at(x) / (at(y) * at(y)));
+            }
+            (x, None) => add(x, 1.0),
+        }
+    }
+
+    fn argument_value<T: Scalar>(self, at: impl Fn(Register) -> T) -> T {
+        match self.argument() {
+            (x, Some(y)) => at(x) / at(y),
+            (x, None) => at(x),
+        }
+    }
+
+    /// Value of a switch that is not free.
+    fn branch_value<T: Scalar>(self, branch: Branch, at: impl Fn(Register) -> T + Copy) -> T {
+        match branch {
+            Branch::Held(cell) => self.in_cell(cell, at),
+            Branch::Shared(sharing) => {
+                let argument = self.argument_value(at);
+                let share = argument.chain(sharing.at(argument.value()), sharing.steepness, 0.0);
+                let lower = self.in_cell(sharing.lower, at);
+                lower + share * (self.in_cell(sharing.upper, at) - lower)
+            }
+            Branch::Free => self.in_cell(self.cell(self.argument_value(at).value()), at),
+        }
+    }
+
+    /// Calls `add(register, slope)` for what a switch that is not free reads.
+    pub(super) fn branch_slopes(
+        self,
+        branch: Branch,
+        at: impl Fn(Register) -> f64 + Copy,
+        mut add: impl FnMut(Register, f64),
+    ) {
+        match branch {
+            Branch::Free => {
+                self.cell_slopes(self.cell(self.argument_value(at)), at, add);
+            }
+            Branch::Held(cell) => self.cell_slopes(cell, at, add),
+            Branch::Shared(sharing) => {
+                let share = sharing.at(self.argument_value(at));
+                self.cell_slopes(sharing.lower, at, |r, slope| add(r, (1.0 - share) * slope));
+                self.cell_slopes(sharing.upper, at, |r, slope| add(r, share * slope));
+                let jump = self.in_cell(sharing.upper, at) - self.in_cell(sharing.lower, at);
+                let steep = jump * sharing.steepness;
+                self.argument_slopes(at, |r, slope| add(r, steep * slope));
+            }
+        }
+    }
+}
+
+/// Switches are called by their place in the order of the program.
+impl Program {
+    /// Notes the operation pushed last where it jumps and its argument may change.
+    pub(super) fn note_switch(&mut self) {
+        let place = self.operations.len() - 1;
+        let operation = self.operations[place];
+        if !operation.jumps() {
+            return;
+        }
+        let (x, y) = operation.argument();
+        let fixed = |r: Register| self.constant_value(r).is_some();
+        if !(fixed(x) && y.is_none_or(fixed)) {
+            let branch = Branch::Free;
+            self.switches.push(Switch { place, branch });
+        }
+    }
+
+    /// Evaluates with some switches held, from registers filled so far; see [`Program::run`].
+    pub(super) fn run_held<T: Scalar>(&self, registers: &mut [T], read: impl Fn(Input) -> T) {
+        let mut from = 0;
+        for switch in &self.switches {
+            if switch.branch == Branch::Free {
+                continue;
+            }
+            self.run_range(from..switch.place, registers, &read);
+            let at = |r: Register| registers[r as usize];
+            registers[switch.place] = self.operations[switch.place].branch_value(switch.branch, at);
+            from = switch.place + 1;
+        }
+        self.run_range(from..self.operations.len(), registers, &read);
+    }
+
+    /// The branch of an operation, where it is a switch that is not free.
+    pub(super) fn held_branch(&self, place: usize) -> Option<Branch> {
+        if !self.holds {
+            return None;
+        }
+        let found = self.switches.binary_search_by_key(&place, |s| s.place);
+        let branch = self.switches[found.ok()?].branch;
+        (branch != Branch::Free).then_some(branch)
+    }
+
+    pub(crate) fn switch_count(&self) -> usize {
+        self.switches.len()
+    }
+
+    /// The name of a switch's function in the dataset language.
+    pub(crate) fn switch_name(&self, switch: usize) -> &'static str {
+        match self.switching(switch) {
+            Operation::If(..) => "IF",
+            Operation::Unary(Unary::Round, _) => "ANINT",
+            Operation::Unary(..) => "AINT",
+            Operation::Binary(Binary::Modulo, ..) => "MOD",
+            _ => "SIGN",
+        }
+    }
+
+    fn switching(&self, switch: usize) -> Operation {
+        self.operations[self.switches[switch].place]
+    }
+
+    pub(crate) fn set_branch(&mut self, switch: usize, branch: Branch) {
+        self.switches[switch].branch = branch;
+        self.holds = self.switches.iter().any(|s| s.branch != Branch::Free);
+    }
+
+    /// Argument of a switch in evaluated registers.
+    pub(crate) fn switch_argument(&self, switch: usize, registers: &[f64]) -> f64 {
+        self.switching(switch)
+            .argument_value(|r| registers[r as usize])
+    }
+
+    /// The cell of an argument.
+    pub(crate) fn switch_cell(&self, switch: usize, argument: f64) -> f64 {
+        self.switching(switch).cell(argument)
+    }
+
+    /// How far an argument is outside of a cell: negative within.
+    pub(crate) fn outside_cell(&self, switch: usize, cell: f64, argument: f64) -> f64 {
+        let (first, last) = self.switching(switch).ends(cell);
+        (first - argument).max(argument - last)
+    }
+
+    /// The two cells that a switch goes between when it leaves one for another, and where they meet:
+    /// the point x = 0 of an IF is no cell to stay in.
+    pub(crate) fn switch_sides(&self, switch: usize, cells: [f64; 2]) -> (f64, f64, f64) {
+        let operation = self.switching(switch);
+        let (lower, upper) = match operation {
+            Operation::If(..) => (-1.0, 1.0),
+            _ => (cells[0].min(cells[1]), cells[0].max(cells[1])),
+        };
+        (lower, upper, operation.ends(lower).1)
+    }
+
+    /// How much a switch jumps between two neighbouring cells, were their boundary there, in
+    /// evaluated registers.
+    pub(crate) fn switch_jump(&self, switch: usize, registers: &[f64]) -> f64 {
+        let operation = self.switching(switch);
+        let (lower, upper) = match operation {
+            Operation::If(..) | Operation::Binary(Binary::Sign, ..) => (-1.0, 1.0),
+            _ => (0.0, 1.0),
+        };
+        let value = |cell| operation.in_cell(cell, |r| registers[r as usize]);
+        (value(upper) - value(lower)).abs()
+    }
+
+    /// Calls `derivative(input, slope)` for what the argument of a switch depends on; see
+    /// [`Program::gradient`].
+    pub(crate) fn argument_gradient(
+        &self,
+        switch: usize,
+        registers: &[f64],
+        adjoints: &mut [f64],
+        derivative: impl FnMut(Input, f64),
+    ) {
+        let place = self.switches[switch].place;
+        adjoints[..=place].fill(0.0);
+        let at = |r: Register| registers[r as usize];
+        self.switching(switch)
+            .argument_slopes(at, |r, slope| adjoints[r as usize] += slope);
+        self.sweep(place, registers, adjoints, derivative);
+    }
+
+    /// Whether the argument of a switch depends on nothing but time.
+    pub(crate) fn is_switch_of_time(&self, switch: usize) -> bool {
+        let place = self.switches[switch].place;
+        let mut needed = vec![false; place];
+        let (x, y) = self.switching(switch).argument();
+        for r in std::iter::once(x).chain(y) {
+            needed[r as usize] = true;
+        }
+        for k in (0..place).rev() {
+            if !needed[k] {
+                continue;
+            }
+            match self.operations[k] {
+                Operation::Input(Input::Time) => {}
+                Operation::Input(_) => return false,
+                operation => {
+                    for r in operation.reads().into_iter().flatten() {
+                        needed[r as usize] = true;
+                    }
+                }
+            }
+        }
+        true
+    }
+}
