@@ -32,6 +32,13 @@ pub struct Jam {
 const LOOK_ALWAYS: f64 = 0.5;
 /// A gain from which on a failure to solve the equations is put down to it.
 const NEAR_ONE: f64 = 0.9;
+/// Powers of the gains that are tried for a smaller bound, while each makes it smaller by this part.
+const POWERS: usize = 30;
+const IMPROVED: f64 = 0.98;
+/// A look solves the equations once for each friction. Where there are many, looks are so far apart that
+/// this is as many times a step, so that steps of long chains cost no more a body than those of short
+/// ones; a jam is then found that much later.
+const SOLVES_A_STEP: usize = 16;
 /// Steps between two looks at most.
 const LONGEST_INTERVAL: f64 = 1000.0;
 
@@ -43,6 +50,12 @@ pub(crate) struct GainWatch {
     zero: Vec<f64>,
     right: Vec<f64>,
     gains: DMatrix<f64>,
+    /// By friction: the rows that its load depends on, and how.
+    load_slopes: Vec<Vec<(usize, f64)>>,
+    /// By friction: the largest part of its coefficient against that in the gains.
+    unused: Vec<f64>,
+    /// Positive vectors of an iteration, by friction.
+    weights: [Vec<f64>; 2],
     /// Steps until the next look.
     wait: usize,
 }
@@ -58,6 +71,9 @@ impl GainWatch {
             zero: vec![0.0; n],
             right: vec![0.0; size],
             gains: DMatrix::zeros(frictions, frictions),
+            load_slopes: vec![Vec::with_capacity(6); frictions],
+            unused: vec![0.0; frictions],
+            weights: [vec![0.0; frictions], vec![0.0; frictions]],
             wait: 0,
         }
     }
@@ -99,7 +115,8 @@ impl GainWatch {
         }
         let bound = self.gains(system, multipliers, before)?;
         let interval = (LOOK_ALWAYS / bound).powi(2).clamp(1.0, LONGEST_INTERVAL);
-        self.wait = interval as usize - 1;
+        let spread = self.load_slopes.len() / SOLVES_A_STEP;
+        self.wait = (interval as usize - 1).max(spread);
         if bound < 1.0 {
             return Ok(None);
         }
@@ -151,8 +168,12 @@ impl GainWatch {
             .map_err(Failure::Singular)?;
         let frictions = system.model.frictions.len();
         self.gains.fill(0.0);
+        for (place, slopes) in self.load_slopes.iter_mut().enumerate() {
+            system.write_load_slopes(place, multipliers, slopes);
+        }
         let mut bound = 0.0_f64;
         for k in 0..frictions {
+            self.unused[k] = 0.0;
             if !system.model.is_active(Element::Friction(k)) {
                 continue;
             }
@@ -176,48 +197,80 @@ impl GainWatch {
             } else {
                 1.0
             };
-            let mut sum = 0.0;
-            for l in 0..frictions {
-                let gain = scale * system.load_change(l, multipliers, &self.right[n..]);
-                self.gains[(l, k)] = gain;
-                sum += gain.abs();
+            for (l, slopes) in self.load_slopes.iter().enumerate() {
+                let change = slopes
+                    .iter()
+                    .map(|(row, slope)| slope * self.right[n + row]);
+                self.gains[(l, k)] = scale * change.sum::<f64>();
             }
             // What is left of the coefficient may come yet; without any, the way it would act is
             // unknown, and the next step is looked at.
-            bound = bound.max(if element.steady_coefficient > 0.0 {
-                sum * unused / scale
+            if element.steady_coefficient > 0.0 {
+                self.unused[k] = unused / scale;
             } else if element.load_by_reaction.iter().any(|slope| *slope != 0.0) {
-                LOOK_ALWAYS
-            } else {
-                0.0
-            });
+                bound = LOOK_ALWAYS;
+            }
         }
-        Ok(bound)
+        Ok(bound.max(self.largest_radius()))
+    }
+
+    /// A bound of the spectral radius of the gains when each column takes any part of its unused
+    /// coefficient: for a matrix `B ≥ 0` and any `x > 0` it is at most the largest `(xB)_k / x_k`
+    /// (Collatz 1942, Wielandt 1950). Powers of `1 + B` bring `x` near the vector that attains it.
+    fn largest_radius(&mut self) -> f64 {
+        let [weights, next] = &mut self.weights;
+        weights.fill(1.0);
+        let mut bound = f64::INFINITY;
+        for _ in 0..POWERS {
+            let mut ratio = 0.0_f64;
+            for (k, next) in next.iter_mut().enumerate() {
+                let column = self.gains.column(k);
+                let gains = column.iter().zip(weights.iter());
+                let product: f64 = gains.map(|(gain, weight)| gain.abs() * weight).sum();
+                let product = self.unused[k] * product;
+                ratio = if ratio >= product / weights[k] {
+                    ratio
+                } else {
+                    product / weights[k]
+                };
+                *next = weights[k] + product;
+            }
+            let improved = ratio < IMPROVED * bound;
+            bound = bound.min(ratio);
+            let largest = next.iter().fold(0.0_f64, |m, x| m.max(*x));
+            // So small a bound makes the interval the longest one.
+            if !(improved && bound * bound > LOOK_ALWAYS.powi(2) / LONGEST_INTERVAL) {
+                break;
+            }
+            next.iter_mut()
+                .for_each(|x| *x = (*x / largest).max(f64::MIN_POSITIVE));
+            std::mem::swap(weights, next);
+        }
+        bound
     }
 }
 
 impl System {
-    /// Change of the load of a friction with the multipliers.
-    fn load_change(&self, place: usize, multipliers: &[f64], change: &[f64]) -> f64 {
+    /// The rows whose multipliers change the load of a friction, and by how much.
+    fn write_load_slopes(&self, place: usize, multipliers: &[f64], slopes: &mut Vec<(usize, f64)>) {
+        slopes.clear();
         if !self.model.is_active(Element::Friction(place)) {
-            return 0.0;
+            return;
         }
         let (element, _, j) = self.friction(place, multipliers);
-        let slopes = element.load_by_reaction;
-        let mut sum = 0.0;
+        let by_reaction = element.load_by_reaction;
         for contribution in self.contributions(place) {
             let Some(row) = self.constraints[contribution.constraint].row else {
                 continue;
             };
-            sum += change[row]
-                * match contribution.share {
-                    Share::Force(axis) => slopes[axis],
-                    Share::Moment => {
-                        let axis = self.moment_axis(contribution.constraint, &j);
-                        slopes[3] * axis.x + slopes[4] * axis.y + slopes[5] * axis.z
-                    }
-                };
+            let slope = match contribution.share {
+                Share::Force(axis) => by_reaction[axis],
+                Share::Moment => {
+                    let axis = self.moment_axis(contribution.constraint, &j);
+                    by_reaction[3] * axis.x + by_reaction[4] * axis.y + by_reaction[5] * axis.z
+                }
+            };
+            slopes.push((row, slope));
         }
-        sum
     }
 }
