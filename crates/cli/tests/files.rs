@@ -1,33 +1,8 @@
 //! Subcommands that write models, driven from outside.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod shared;
 
-fn folder(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    for (file, bytes) in files {
-        std::fs::write(folder.join(file), bytes).unwrap();
-    }
-    folder
-}
-
-fn stiction(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stiction"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().unwrap()
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
+use shared::{code, errors, folder, stiction};
 
 #[test]
 fn fmt_replaces_what_it_can_read_and_leaves_the_rest_alone() {

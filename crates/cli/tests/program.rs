@@ -1,7 +1,10 @@
 //! The program, driven from outside: exit codes, folders, changes, kept results, JSON, Ctrl-C.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+mod shared;
+
+use std::process::{Command, Stdio};
+
+use shared::{code, errors, folder, stiction};
 
 const PENDULUM: &str = "A pendulum
 UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
@@ -15,33 +18,6 @@ JOINT/1, REVOLUTE, I=21, J=1
 FRICTION/103, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, PIN_RADIUS=0.05
 END
 ";
-
-/// A fresh folder with these files.
-fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    for (file, text) in files {
-        std::fs::write(folder.join(file), text).unwrap();
-    }
-    folder
-}
-
-fn stiction(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stiction"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().unwrap()
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
 
 fn json(bytes: &[u8]) -> serde_json::Value {
     serde_json::from_slice(bytes).unwrap()
@@ -279,7 +255,7 @@ fn a_run_that_goes_on_tells_what_failed_when_and_how_far_it_got() {
     );
     let commands = "\nFILE/MODEL=p\nSIM/DYN, END=1, STEPS=10\nVARIABLE/1, FUNCTION=0\n\
                     SIM/DYN, END=0.9, STEPS=2\n";
-    let folder = folder("survived", &[("p.adm", &model), ("p.acf", commands)]);
+    let folder = folder("survived", &[("p.adm", model.as_str()), ("p.acf", commands)]);
     let output = stiction(&folder, &["run", "p.acf"]);
     assert_eq!(code(&output), 5, "{}", errors(&output));
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -495,7 +471,7 @@ fn an_interrupt_keeps_the_results() {
 
 #[test]
 fn help_says_what_there_is() {
-    let folder = folder("help", &[]);
+    let folder = folder::<&str>("help", &[]);
     let output = stiction(&folder, &["run", "--help"]);
     assert_eq!(code(&output), 0);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();

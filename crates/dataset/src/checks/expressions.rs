@@ -4,6 +4,7 @@ use super::references;
 use crate::diagnostic::{Code, Diagnostics};
 use crate::expression::{ArgumentKind, ElementKind, Expr, Expression, Function};
 use crate::model::{Dataset, RequestKind};
+use crate::source::Span;
 
 /// What an expression belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -57,13 +58,61 @@ fn all(dataset: &Dataset) -> impl Iterator<Item = (&Expression, Place)> {
     moving.chain(outputs.map(|expression| (expression, Place::Output)))
 }
 
+/// An argument of a call that is a number without point, sign or name.
+struct Named {
+    /// Of the call.
+    span: Span,
+    function: Function,
+    position: usize,
+    id: u32,
+}
+
+impl Named {
+    fn kind(&self) -> ArgumentKind {
+        self.function.argument_kind(self.position)
+    }
+
+    fn is_marker(&self) -> bool {
+        let kind = self.kind();
+        matches!(kind, ArgumentKind::Marker | ArgumentKind::MarkerOrGround)
+    }
+}
+
+/// Calls `each` with every argument of an expression that may name an element.
+fn visit_named(expression: &Expression, each: &mut impl FnMut(Named)) {
+    expression.root.visit(&mut |call| {
+        let Expr::Call {
+            function,
+            arguments,
+            span,
+        } = call
+        else {
+            return;
+        };
+        for (position, argument) in arguments.iter().enumerate() {
+            if let Some(id) = argument.as_id() {
+                each(Named {
+                    span: *span,
+                    function: *function,
+                    position,
+                    id,
+                });
+            }
+        }
+    });
+}
+
 /// Checks every expression of a dataset.
 pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
     let mut missing = Vec::new();
     for (expression, place) in all(dataset) {
-        find_missing(dataset, expression, &mut missing);
         friction(expression, place, diagnostics);
-        floating(dataset, expression, diagnostics);
+        visit_named(expression, &mut |named| {
+            floating(dataset, &named, diagnostics);
+            if !exists(dataset, named.kind(), named.id) {
+                missing.push(named);
+            }
+        });
     }
     report(dataset, missing, diagnostics);
 }
@@ -71,56 +120,28 @@ pub(super) fn check_all(dataset: &Dataset, diagnostics: &mut Diagnostics) {
 /// Calls `mark` with the numbers in calls that name markers, or may name some.
 pub(crate) fn named_markers(dataset: &Dataset, mark: &mut impl FnMut(u32)) {
     for (expression, _) in all(dataset) {
-        expression.root.visit(&mut |node| {
-            let Expr::Call {
-                function,
-                arguments,
-                ..
-            } = node
-            else {
-                return;
-            };
-            for (position, argument) in arguments.iter().enumerate() {
-                let kind = function.argument_kind(position);
-                let marker = *function == Function::User
-                    || matches!(kind, ArgumentKind::Marker | ArgumentKind::MarkerOrGround);
-                if let Some(id) = argument.as_id().filter(|_| marker) {
-                    mark(id);
-                }
+        visit_named(expression, &mut |named| {
+            if named.is_marker() || named.function == Function::User {
+                mark(named.id);
             }
         });
     }
 }
 
-/// Reports floating markers in functions other than those of the forces that act on them.
-fn floating(dataset: &Dataset, expression: &Expression, diagnostics: &mut Diagnostics) {
+/// Reports a floating marker in a function other than those of the forces that act on it.
+fn floating(dataset: &Dataset, named: &Named, diagnostics: &mut Diagnostics) {
     use Function as F;
-    expression.root.visit(&mut |node| {
-        let Expr::Call {
-            function,
-            arguments,
-            span,
-        } = node
-        else {
-            return;
-        };
-        let of_forces = matches!(
-            function,
-            F::Fx | F::Fy | F::Fz | F::Fm | F::Tx | F::Ty | F::Tz | F::Tm | F::Fxyz | F::Txyz
-        );
-        for (position, argument) in arguments.iter().enumerate() {
-            let of_marker = matches!(
-                function.argument_kind(position),
-                ArgumentKind::Marker | ArgumentKind::MarkerOrGround
-            );
-            let id = argument.as_id().filter(|_| of_marker);
-            let marker = id.and_then(|id| dataset.markers.by_id(id));
-            let end = of_forces && position < 2;
-            if let Some(marker) = marker.filter(|marker| marker.floating && !end) {
-                references::report_floating(marker.header.id, *span, diagnostics);
-            }
-        }
-    });
+    let of_forces = matches!(
+        named.function,
+        F::Fx | F::Fy | F::Fz | F::Fm | F::Tx | F::Ty | F::Tz | F::Tm | F::Fxyz | F::Txyz
+    );
+    if !named.is_marker() || of_forces && named.position < 2 {
+        return;
+    }
+    let marker = dataset.markers.by_id(named.id);
+    if marker.is_some_and(|marker| marker.floating) {
+        references::report_floating(named.id, named.span, diagnostics);
+    }
 }
 
 /// Checks the calls of `FRICTION(id, index)`, of which only outputs may read all.
@@ -150,47 +171,23 @@ fn friction(expression: &Expression, place: Place, diagnostics: &mut Diagnostics
     });
 }
 
-/// A call that names something that does not exist: what, and the identifier.
-type Missing<'a> = (&'a Expr, ArgumentKind, u32);
-
-fn find_missing<'a>(dataset: &Dataset, expression: &'a Expression, missing: &mut Vec<Missing<'a>>) {
-    expression.root.visit(&mut |node| {
-        let Expr::Call {
-            function,
-            arguments,
-            ..
-        } = node
-        else {
-            return;
-        };
-        for (position, argument) in arguments.iter().enumerate() {
-            let kind = function.argument_kind(position);
-            let Some(id) = argument.as_id() else { continue };
-            if !exists(dataset, kind, id) {
-                missing.push((node, kind, id));
-            }
-        }
-    });
-}
-
-fn report(dataset: &Dataset, missing: Vec<Missing>, diagnostics: &mut Diagnostics) {
+/// Reports what does not exist.
+fn report(dataset: &Dataset, missing: Vec<Named>, diagnostics: &mut Diagnostics) {
     if missing.is_empty() {
         return;
     }
     let markers = references::sorted(&dataset.markers);
     let variables = references::sorted(&dataset.variables);
-    for (call, kind, id) in missing {
-        let Expr::Call { span, .. } = call else {
-            continue;
-        };
-        let (name, near) = match kind {
+    for named in missing {
+        let id = named.id;
+        let (name, near) = match named.kind() {
             ArgumentKind::Element(ElementKind::Variable) => {
                 ("VARIABLE", references::nearest(&variables, id))
             }
             ArgumentKind::Element(element) => (statement(element), None),
             _ => ("MARKER", references::nearest(&markers, id)),
         };
-        references::report(diagnostics, name, id, *span, near);
+        references::report(diagnostics, name, id, named.span, near);
     }
 }
 

@@ -95,6 +95,19 @@ pub(crate) fn read_command(
     let names = COMMANDS.iter().map(|rule| rule.name);
     let names = names.chain(only_statements());
     let index = find(raw.name, names, unknown, diagnostics)?;
+    let (source, span) = (diagnostics.source, tree.span(statement));
+    let head = |name, identified, diagnostics: &mut Diagnostics| Head {
+        name,
+        span,
+        head: raw.head,
+        id: raw.id(name, identified, diagnostics),
+        view_name: None,
+    };
+    let command = |kind| Command {
+        kind,
+        echo: join(source, buffer.iter()),
+        span,
+    };
     let Some(rule) = COMMANDS.get(index) else {
         let name = only_statements().nth(index - COMMANDS.len())?.full;
         let rule = STATEMENTS.iter().find(|rule| rule.name.full == name)?;
@@ -108,19 +121,10 @@ pub(crate) fn read_command(
                 return None;
             }
         };
-        let span = tree.span(statement);
-        let head = Head {
-            name,
-            span,
-            head: raw.head,
-            id: raw.id(name, true, diagnostics),
-            view_name: None,
-        };
+        let head = head(name, true, diagnostics);
         let keywords = &amendment::with_list(keywords);
         let mut reading = Reading::new(head, &buffer[raw.rest..], Some(keywords), diagnostics);
-        let kind = amendment::amend(&mut reading, keywords)?;
-        let echo = join(diagnostics.source, buffer.iter());
-        return Some(Command { kind, echo, span });
+        return amendment::amend(&mut reading, keywords).map(command);
     };
     let name = rule.name.full;
     let (identified, keywords, read) = match rule.action {
@@ -136,18 +140,9 @@ pub(crate) fn read_command(
             return None;
         }
     };
-    let span = tree.span(statement);
-    let head = Head {
-        name,
-        span,
-        head: raw.head,
-        id: raw.id(name, identified, diagnostics),
-        view_name: None,
-    };
+    let head = head(name, identified, diagnostics);
     let mut reading = Reading::new(head, &buffer[raw.rest..], Some(keywords), diagnostics);
-    let kind = read(&mut reading)?;
-    let echo = join(diagnostics.source, buffer.iter());
-    Some(Command { kind, echo, span })
+    read(&mut reading).map(command)
 }
 
 /// Reports a name that no command has.

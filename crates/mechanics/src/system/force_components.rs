@@ -18,7 +18,6 @@ use super::single_force::{direction, direction_by_frame, direction_stiffness};
 use crate::constraint::{Form, Owner};
 use crate::equation::{Local, LocalMatrix};
 use crate::force_element::{ForceComponent, ForceElement, Side};
-use crate::joint_friction::{Share, Slopes};
 use crate::model::Element;
 use crate::snapshot::Wrench;
 use crate::state::MarkerFrame;
@@ -310,30 +309,13 @@ impl System {
     }
 
     fn add_friction(&self, reading: &Reading, place: usize, multipliers: &[f64], row: &mut Row) {
-        if !self.friction_acts(place) {
-            return;
-        }
         let p = reading.functional();
-        let mut slopes = Slopes::zero();
-        let (_, i, j) = self.friction_with_slopes(place, multipliers, &mut slopes);
-        let turning = slopes.by_reaction.fixed_columns::<3>(3)
-            * self.moment_change(place, &i, &j, multipliers);
-        let moving = row.weights.velocity * slopes.by_velocity
-            + row.weights.position * (slopes.by_position + turning);
-        self.add_local_row(&p, &[i.body, j.body], &moving, 1.0, row);
         let first = self.rate_count();
-        for contribution in self.contributions(place) {
-            let Some(number) = self.constraints[contribution.constraint].row else {
-                continue;
-            };
-            let by_multiplier: Local = match contribution.share {
-                Share::Force(axis) => slopes.by_reaction.column(axis).into_owned(),
-                Share::Moment => {
-                    let axis = self.moment_axis(contribution.constraint, &j);
-                    slopes.by_reaction.fixed_columns::<3>(3) * axis
-                }
-            };
-            row.add(first + number, p.dot(&by_multiplier.fixed_rows::<6>(0)));
+        let change = self.friction_change(place, *row.weights, multipliers, |_, number, change| {
+            row.add(first + number, p.dot(&change.fixed_rows::<6>(0)));
+        });
+        if let Some((sides, moving)) = change {
+            self.add_local_row(&p, &sides, &moving, 1.0, row);
         }
     }
 

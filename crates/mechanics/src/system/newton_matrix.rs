@@ -181,37 +181,55 @@ impl System {
     fn assemble_frictions(&self, weights: Weights, multipliers: &[f64], matrix: &mut Matrix) {
         let n = self.rate_count();
         for place in 0..self.model.frictions.len() {
-            if !self.friction_acts(place) {
-                continue;
-            }
-            let mut slopes = Slopes::zero();
-            let (_, i, j) = self.friction_with_slopes(place, multipliers, &mut slopes);
-            let sides = [i.body, j.body];
-            let turning = slopes.by_reaction.fixed_columns::<3>(3)
-                * self.moment_change(place, &i, &j, multipliers);
-            let moving = weights.velocity * slopes.by_velocity
-                + weights.position * (slopes.by_position + turning);
             let first = self.model.frictions[place].load.first_motion();
-            self.add_local_matrix(&sides, &moving, first, -1.0, matrix);
-            for contribution in &self.reactions[place] {
-                let Some(row) = self.constraints[contribution.constraint].row else {
-                    continue;
-                };
-                let by_multiplier: Local = match contribution.share {
-                    Share::Force(axis) => slopes.by_reaction.column(axis).into_owned(),
-                    Share::Moment => {
-                        let axis = self.moment_axis(contribution.constraint, &j);
-                        slopes.by_reaction.fixed_columns::<3>(3) * axis
-                    }
-                };
+            let change = self.friction_change(place, weights, multipliers, |sides, row, change| {
                 for (side, body) in sides.iter().enumerate() {
                     let Some(body) = *body else { continue };
                     for r in first..6 {
-                        matrix.add(6 * body + r, n + row, -by_multiplier[6 * side + r]);
+                        matrix.add(6 * body + r, n + row, -change[6 * side + r]);
                     }
                 }
+            });
+            if let Some((sides, moving)) = change {
+                self.add_local_matrix(&sides, &moving, first, -1.0, matrix);
             }
         }
+    }
+
+    /// How the generalised forces of a friction on its two bodies change with their local motions,
+    /// weighted as the unknowns are, and (`by_multiplier`, with the row of each) with the
+    /// multipliers that it follows. `None` where the friction does not act.
+    pub(super) fn friction_change(
+        &self,
+        place: usize,
+        weights: Weights,
+        multipliers: &[f64],
+        mut by_multiplier: impl FnMut(&[Option<usize>; 2], usize, &Local),
+    ) -> Option<([Option<usize>; 2], LocalMatrix)> {
+        if !self.friction_acts(place) {
+            return None;
+        }
+        let mut slopes = Slopes::zero();
+        let (_, i, j) = self.friction_with_slopes(place, multipliers, &mut slopes);
+        let sides = [i.body, j.body];
+        let turning = slopes.by_reaction.fixed_columns::<3>(3)
+            * self.moment_change(place, &i, &j, multipliers);
+        for contribution in &self.reactions[place] {
+            let Some(row) = self.constraints[contribution.constraint].row else {
+                continue;
+            };
+            let change: Local = match contribution.share {
+                Share::Force(axis) => slopes.by_reaction.column(axis).into_owned(),
+                Share::Moment => {
+                    let axis = self.moment_axis(contribution.constraint, &j);
+                    slopes.by_reaction.fixed_columns::<3>(3) * axis
+                }
+            };
+            by_multiplier(&sides, row, &change);
+        }
+        let moving = weights.velocity * slopes.by_velocity
+            + weights.position * (slopes.by_position + turning);
+        Some((sides, moving))
     }
 
     /// Adds the change of a generalised force with the rotation of the body `carrier`.

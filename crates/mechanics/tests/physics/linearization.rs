@@ -314,12 +314,8 @@ fn a_part_without_mass_adds_no_mode() {
     assert_values(&linear.modes(true).unwrap(), &[imaginary(5.0)], ROUNDING);
 }
 
-/// A block that sticks is a spring of `1.875 μs N/Dm` and a damper of `1.875 μs N/Vs`
-/// (`friction::Original`).
-#[test]
-fn a_stuck_block_rings_on_its_creep() {
-    let (mu, deformation, transition) = (0.4, 1e-3, 0.5);
-    let (mass, gravity) = (2.0, 9.81);
+/// A block on a horizontal joint with friction under its weight; the joint.
+fn block_on_a_joint(mass: f64, gravity: f64, law: impl Into<friction::Law>) -> (Builder, usize) {
     let mut b = Builder::new(v(0.0, -gravity, 0.0));
     let body = b.body(mass, [1.0; 3], Vector3::zeros());
     let joint = b.joint(
@@ -329,14 +325,6 @@ fn a_stuck_block_rings_on_its_creep() {
         Vector3::zeros(),
         Vector3::z(),
     );
-    let law = friction::Original {
-        mu_static: mu,
-        mu_dynamic: 0.3,
-        transition_velocity: transition,
-        transition_coefficient: 1.5,
-        max_deformation: deformation,
-        effect: friction::Effect::All,
-    };
     let load = FrictionJoint::Translational(friction::TranslationalLoad {
         inputs: friction::Inputs::ALL,
         reaction_arm: 1.0,
@@ -345,6 +333,24 @@ fn a_stuck_block_rings_on_its_creep() {
         overlap_sign: 0.0,
     });
     b.friction(joint, law, load);
+    (b, joint)
+}
+
+/// A block that sticks is a spring of `1.875 μs N/Dm` and a damper of `1.875 μs N/Vs`
+/// (`friction::Original`).
+#[test]
+fn a_stuck_block_rings_on_its_creep() {
+    let (mu, deformation, transition) = (0.4, 1e-3, 0.5);
+    let (mass, gravity) = (2.0, 9.81);
+    let law = friction::Original {
+        mu_static: mu,
+        mu_dynamic: 0.3,
+        transition_velocity: transition,
+        transition_coefficient: 1.5,
+        max_deformation: deformation,
+        effect: friction::Effect::All,
+    };
+    let (b, joint) = block_on_a_joint(mass, gravity, law);
     let weight = mass * gravity;
     let stiffness = 1.875 * mu * weight / deformation;
     let half = 0.5 * 1.875 * mu * weight / transition / mass;
@@ -372,15 +378,6 @@ fn a_stuck_block_rings_on_its_creep() {
 #[test]
 fn a_stuck_block_rings_on_its_bristles() {
     let (s0, s1, s2, mass) = (1e4, 30.0, 0.5, 2.0);
-    let mut b = Builder::new(v(0.0, -9.81, 0.0));
-    let body = b.body(mass, [1.0; 3], Vector3::zeros());
-    let joint = b.joint(
-        JointKind::Translational,
-        Some(body),
-        None,
-        Vector3::zeros(),
-        Vector3::z(),
-    );
     let law = friction::LuGre {
         mu_static: 0.4,
         mu_dynamic: 0.3,
@@ -390,14 +387,7 @@ fn a_stuck_block_rings_on_its_bristles() {
         stribeck_velocity: 0.01,
         stribeck_exponent: 2.0,
     };
-    let load = FrictionJoint::Translational(friction::TranslationalLoad {
-        inputs: friction::Inputs::ALL,
-        reaction_arm: 1.0,
-        bending_factor: 1.0,
-        initial_overlap: 1000.0,
-        overlap_sign: 0.0,
-    });
-    b.friction(joint, law, load);
+    let (b, _) = block_on_a_joint(mass, 9.81, law);
     let half = 0.5 * (s1 + s2) / mass;
     let rate = (s0 / mass - half * half).sqrt();
     // The spring is a difference over 1e-6 of a damper: 1e-16 · (s1 + s2)/1e-6 of s0.

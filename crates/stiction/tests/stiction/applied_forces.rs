@@ -2,11 +2,7 @@
 
 use results::ResFile;
 
-use crate::shared::run_text;
-
-fn last(results: &ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
+use crate::shared::{last, run_text};
 
 /// Components X, Y, Z of an entity with a prefix (`V`, `W`, `AC`...) at every instant.
 fn vectors(results: &ResFile, entity: &str, prefix: &str) -> Vec<[f64; 3]> {

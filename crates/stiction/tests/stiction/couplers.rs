@@ -1,12 +1,6 @@
 //! COUPLER, GEAR and SCREW against closed forms: gears, racks, a winch, a differential, a nut.
 
-use results::ResFile;
-
-use crate::shared::run_text;
-
-fn last(results: &ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
+use crate::shared::{last, run_text};
 
 /// Rotors 2, 3 and 4 about z of ground with inertias 2, 3 and 5, and a slide 5 of mass 4 along z.
 const MACHINE: &str = "machine

@@ -3,13 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-use results::ResFile;
-
-use crate::shared::{refusal, run_text};
-
-fn last(results: &ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
+use crate::shared::{last, refusal, run_text};
 
 /// MATRIX/1 and CURVE/1 through points.
 fn curve(points: &[[f64; 3]], arguments: &str) -> String {

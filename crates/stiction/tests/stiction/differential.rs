@@ -1,28 +1,8 @@
 //! DIFF against closed forms: filters, oscillators, implicit equations, forces that read states,
 //! static solutions.
 
-use results::ResFile;
-
-use crate::shared::{complete, run_text, scratch_folder};
-
-fn last(results: &ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
-
-/// Runs a dataset with commands; it must go through.
-fn run_commands(text: &str, commands: &str) -> ResFile {
-    let folder = scratch_folder();
-    std::fs::write(folder.join("model.adm"), text).unwrap();
-    let commands = format!("\nFILE/MODEL=model\n{commands}\nSTOP\n");
-    std::fs::write(folder.join("model.acf"), commands).unwrap();
-    let project =
-        stiction::Project::load(&folder.join("model.acf")).unwrap_or_else(|e| panic!("{e}"));
-    let results = complete(&project, None);
-    std::fs::remove_dir_all(folder).unwrap();
-    results
-}
-
-const GROUND: &str = "PART/1, GROUND\nMARKER/1, PART=1\n";
+use crate::runs::complete_commands;
+use crate::shared::{GROUND, last, run_text, scratch_folder, slider};
 
 #[test]
 fn filters_and_oscillators_without_any_body() {
@@ -98,21 +78,6 @@ END
     assert!((results.get("DIFF_1.QDOT").unwrap()[1] - 1.0).abs() < 1e-12);
 }
 
-/// A mass on a line along x; forces and equations are added.
-fn slider(elements: &str) -> String {
-    format!(
-        "slider
-{GROUND}MARKER/2, PART=1, REULER=90D, 90D, 0
-PART/2, MASS=2, CM=20, IP=1, 1, 1
-MARKER/20, PART=2, REULER=90D, 90D, 0
-MARKER/21, PART=2
-JOINT/1, TRANSLATIONAL, I=20, J=2
-{elements}
-END
-"
-    )
-}
-
 #[test]
 fn a_force_and_a_state_drive_each_other() {
     // An actuator y' = (f - y)/τ pulls a mass to x = 1. Two more equations integrate its power and
@@ -157,7 +122,7 @@ DIFF/2, IC=1, FUNCTION=DIF(1)-4*DIF(2)
         )
     };
     for (hold, place, force) in [("", 1.2, 30.0), (", STATIC_HOLD", 0.7, 5.0)] {
-        let results = run_commands(&model(hold), "SIMULATE/STATIC");
+        let results = complete_commands(&model(hold), "SIMULATE/STATIC");
         let found = last(&results, "PART_2_XFORM.X");
         // The tolerance of the equilibrium is 1e-4; Newton's last steps go far below it.
         assert!((found - place).abs() < 1e-8, "{found} {place}");
@@ -175,7 +140,7 @@ SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=2, FUNCTION=200*(1-DX(21,1))-30*VX(
 DIFF/1, FUNCTION=3*(1.2-DX(21,1))
 ",
     );
-    let results = run_commands(&text, "SIMULATE/STATIC\nSIMULATE/DYNAMIC, END=1, STEPS=10");
+    let results = complete_commands(&text, "SIMULATE/STATIC\nSIMULATE/DYNAMIC, END=1, STEPS=10");
     assert!((last(&results, "PART_2_XFORM.X") - 1.2).abs() < 1e-7);
     assert!((last(&results, "DIFF_1.Q") - 60.0).abs() < 1e-5);
 }
@@ -191,7 +156,7 @@ END
     );
     let commands = "SIMULATE/DYNAMIC, END=1, STEPS=4\nVARIABLE/1, FUNCTION=-1\n\
                     SIMULATE/DYNAMIC, END=3, STEPS=4";
-    let results = run_commands(&text, commands);
+    let results = complete_commands(&text, commands);
     assert!(last(&results, "DIFF_1.Q").abs() < 1e-9);
 }
 

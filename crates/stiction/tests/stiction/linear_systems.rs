@@ -1,14 +1,7 @@
 //! LSE and TFSISO against closed forms: controllers, step responses, feedthrough, static solutions.
 
-use results::ResFile;
-
-use crate::shared::{complete, run_text, scratch_folder};
-
-fn last(results: &ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
-
-const GROUND: &str = "PART/1, GROUND\nMARKER/1, PART=1\n";
+use crate::runs::complete_commands;
+use crate::shared::{GROUND, last, run_text, scratch_folder};
 
 #[test]
 fn a_state_matrix_rings_as_its_eigenvalues_say() {
@@ -122,23 +115,11 @@ END
     )
 }
 
-fn run_commands(text: &str, commands: &str) -> ResFile {
-    let folder = scratch_folder();
-    std::fs::write(folder.join("model.adm"), text).unwrap();
-    let commands = format!("\nFILE/MODEL=model\n{commands}\nSTOP\n");
-    std::fs::write(folder.join("model.acf"), commands).unwrap();
-    let project =
-        stiction::Project::load(&folder.join("model.acf")).unwrap_or_else(|e| panic!("{e}"));
-    let results = complete(&project, None);
-    std::fs::remove_dir_all(folder).unwrap();
-    results
-}
-
 #[test]
 fn an_integral_controller_leaves_no_error() {
     // In motion and at the equilibrium alike: the integral carries the weight of 20, 80 x₁ = 20.
     for commands in ["SIMULATE/DYNAMIC, END=60, STEPS=20", "SIMULATE/STATIC"] {
-        let results = run_commands(&controlled(""), commands);
+        let results = complete_commands(&controlled(""), commands);
         let place = last(&results, "PART_2_XFORM.X");
         assert!((place - 1.0).abs() < 1e-4, "{commands}: {place}");
         let integral = last(&results, "LSE_1.X1");
@@ -150,7 +131,7 @@ fn an_integral_controller_leaves_no_error() {
 #[test]
 fn held_states_leave_the_rest_to_the_other_forces() {
     // 150 (1 - x) + 80·0.1 = 20.
-    let results = run_commands(&controlled(", STATIC_HOLD"), "SIMULATE/STATIC");
+    let results = complete_commands(&controlled(", STATIC_HOLD"), "SIMULATE/STATIC");
     let place = last(&results, "PART_2_XFORM.X");
     assert!((place - 0.92).abs() < 1e-9, "{place}");
     assert_eq!(last(&results, "LSE_1.X1"), 0.1);

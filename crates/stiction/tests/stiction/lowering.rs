@@ -1,11 +1,6 @@
 //! What a dataset means in mechanics, seen in the results of short runs.
 
-use crate::shared::run_text;
-
-/// The last value of a component.
-fn last(results: &results::ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
+use crate::shared::{last, run_text};
 
 #[test]
 fn a_hanging_pound_mass_weighs_a_pound_force() {

@@ -1,7 +1,7 @@
 //! Runs of command files with all that they write.
 
 use results::ResFile;
-use stiction::{Project, RunOptions, RunReport, Session};
+use stiction::{Outcome, Project, RunOptions, RunReport, Session};
 
 use crate::shared::{GoOn, scratch_folder};
 
@@ -50,4 +50,11 @@ pub(crate) fn with_commands(dataset: &str, commands: &str) -> Result<Project, St
 /// Runs commands on a dataset.
 pub(crate) fn run_commands(dataset: &str, commands: &str) -> Run {
     Run::of(&with_commands(dataset, commands).unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// Runs commands on a dataset; they must go through.
+pub(crate) fn complete_commands(dataset: &str, commands: &str) -> ResFile {
+    let run = run_commands(dataset, commands);
+    assert_eq!(run.report.outcome, Outcome::Completed, "{commands}");
+    run.results
 }

@@ -79,3 +79,26 @@ pub(crate) fn refusal(text: &str) -> String {
     std::fs::remove_dir_all(folder).unwrap();
     refused
 }
+
+/// The ground with a marker at its origin.
+pub(crate) const GROUND: &str = "PART/1, GROUND\nMARKER/1, PART=1\n";
+
+/// A mass of 2 on a line along x, without weight, and what is added to it.
+pub(crate) fn slider(elements: &str) -> String {
+    format!(
+        "slider
+{GROUND}MARKER/2, PART=1, REULER=90D, 90D, 0
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2, REULER=90D, 90D, 0
+MARKER/21, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=2
+{elements}
+END
+"
+    )
+}
+
+/// The last value of a column.
+pub(crate) fn last(results: &ResFile, name: &str) -> f64 {
+    *results.get(name).unwrap().last().unwrap()
+}

@@ -1,30 +1,7 @@
 //! Forces, states and variables that read accelerations, reactions and one another, against closed
 //! forms.
 
-use results::ResFile;
-
-use crate::shared::{run, run_text, scratch_folder};
-
-fn last(results: &ResFile, name: &str) -> f64 {
-    *results.get(name).unwrap().last().unwrap()
-}
-
-const GROUND: &str = "PART/1, GROUND\nMARKER/1, PART=1\n";
-
-/// A mass of 2 on a line along x, without weight.
-fn slider(elements: &str) -> String {
-    format!(
-        "slider
-{GROUND}MARKER/2, PART=1, REULER=90D, 90D, 0
-PART/2, MASS=2, CM=20, IP=1, 1, 1
-MARKER/20, PART=2, REULER=90D, 90D, 0
-MARKER/21, PART=2
-JOINT/1, TRANSLATIONAL, I=20, J=2
-{elements}
-END
-"
-    )
-}
+use crate::shared::{GROUND, last, run, run_text, scratch_folder, slider};
 
 #[test]
 fn a_force_against_the_acceleration_is_an_added_mass() {
