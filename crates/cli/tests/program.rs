@@ -255,7 +255,10 @@ fn a_run_that_goes_on_tells_what_failed_when_and_how_far_it_got() {
     );
     let commands = "\nFILE/MODEL=p\nSIM/DYN, END=1, STEPS=10\nVARIABLE/1, FUNCTION=0\n\
                     SIM/DYN, END=0.9, STEPS=2\n";
-    let folder = folder("survived", &[("p.adm", model.as_str()), ("p.acf", commands)]);
+    let folder = folder(
+        "survived",
+        &[("p.adm", model.as_str()), ("p.acf", commands)],
+    );
     let output = stiction(&folder, &["run", "p.acf"]);
     assert_eq!(code(&output), 5, "{}", errors(&output));
     let said = String::from_utf8_lossy(&output.stdout).into_owned();

@@ -116,7 +116,7 @@ fn title(source: &Source, tokens: &[Token], diagnostics: &mut Diagnostics) -> St
             .help("put a title, which may be empty, before it")
             .replace(Span::default(), "\n");
     }
-    text.trim_end().to_string()
+    text.trim_ascii_end().to_string()
 }
 
 pub(crate) fn read_statement(

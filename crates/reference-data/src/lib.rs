@@ -27,3 +27,26 @@ pub fn path(relative: &str) -> Option<PathBuf> {
     println!("skipped: there is no reference data {relative} (set STICTION_SHARED)");
     None
 }
+
+/// The datasets and command files in a folder and below, in the order of their names.
+///
+/// # Panics
+/// If the folder cannot be read.
+#[must_use]
+pub fn models(folder: &Path) -> Vec<PathBuf> {
+    let mut folders = vec![folder.to_path_buf()];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("the folder can be read") {
+            let path = entry.expect("the entry can be read").path();
+            let extension = path.extension().and_then(|extension| extension.to_str());
+            match extension {
+                _ if path.is_dir() => folders.push(path),
+                Some("adm" | "acf") => files.push(path),
+                _ => {}
+            }
+        }
+    }
+    files.sort();
+    files
+}

@@ -180,7 +180,7 @@ fn first_lines(source: &Source, tree: &SyntaxTree) -> Option<Command> {
         .map(|token| token.span());
     let span = lines.next()?;
     let prefix = lines.next();
-    let text = |span| source.slice(span).trim().to_string();
+    let text = |span| source.slice(span).trim_ascii().to_string();
     Some(Command {
         kind: CommandKind::Model {
             path: text(span),

@@ -12,14 +12,18 @@ pub(crate) struct Number {
 }
 
 impl Number {
-    /// The number in a text that the reader of numbers has accepted: sign, blanks, digits, `D`.
+    /// The number in a text that the reader of numbers has accepted: sign, digits, `D`, and between
+    /// sign and digits blanks, comments and marks that continue a line.
     pub(crate) fn of_text(text: &str) -> Option<Self> {
         let (negative, unsigned) = match text.strip_prefix('-') {
             Some(rest) => (true, rest),
             None => (false, text.strip_prefix('+').unwrap_or(text)),
         };
-        let plain = unsigned.trim().strip_suffix(['d', 'D']);
-        let written: f64 = plain.unwrap_or(unsigned).trim().parse().ok()?;
+        let last_line = unsigned.lines().next_back()?;
+        let before = |mark: char| !mark.is_ascii_digit() && mark != '.';
+        let digits = last_line.trim_start_matches(before).trim_ascii_end();
+        let plain = digits.strip_suffix(['d', 'D']);
+        let written: f64 = plain.unwrap_or(digits).parse().ok()?;
         Some(Self {
             written: if negative { -written } else { written },
             degrees: plain.is_some(),

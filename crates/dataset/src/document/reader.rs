@@ -41,7 +41,7 @@ pub(crate) fn read(source: &Source, language: Language) -> (Document, Vec<Diagno
     document.comments = comments;
     if let Some(end) = end {
         let rest = Span::new(tree.tokens[end].span().end, source.text().len());
-        document.rest = source.slice(rest).trim().to_string();
+        document.rest = source.slice(rest).trim_ascii().to_string();
     }
     (document, errors_of_the_text(diagnostics))
 }
@@ -71,7 +71,7 @@ impl Reader<'_> {
                     if !self.document.title.is_empty() {
                         self.document.title.push('\n');
                     }
-                    self.document.title.push_str(line.trim_end());
+                    self.document.title.push_str(line.trim_ascii_end());
                 }
                 TokenKind::Newline => same_line = false,
                 TokenKind::Comment => {
@@ -221,7 +221,7 @@ impl Reader<'_> {
 
 /// The text of a comment; `None` where it is empty.
 fn comment(text: &str) -> Option<String> {
-    let text = text.strip_prefix('!').unwrap_or(text).trim_end();
+    let text = text.strip_prefix('!').unwrap_or(text).trim_ascii_end();
     (!text.is_empty()).then(|| text.to_string())
 }
 
@@ -234,7 +234,7 @@ fn with_plain_blanks(expression: &str) -> String {
 
 /// A text without empty lines and without blanks at the ends of the others.
 pub(crate) fn text_of_lines(text: &str) -> String {
-    let lines = text.lines().map(str::trim);
+    let lines = text.lines().map(str::trim_ascii);
     let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
     lines.join("\n")
 }

@@ -98,7 +98,7 @@ fn list(values: &[impl ToString]) -> String {
 
 /// A text, in quotes where it would read differently without.
 fn quoted_where_needed(text: &str) -> String {
-    let plain = text.trim() == text
+    let plain = text.trim_ascii() == text
         && !text.contains(['!', ';', '&', '"', '\\', '=', ','])
         && !text.is_empty();
     if plain || text.contains('"') {

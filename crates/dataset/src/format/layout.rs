@@ -96,7 +96,6 @@ impl Layout<'_> {
             self.between(at..statement.tokens.start);
             at = statement.tokens.end;
             let stops = self.statement(statement, &mut buffer);
-            self.open_end(at);
             if stops {
                 end = Some(at - 1);
                 break;
@@ -114,18 +113,19 @@ impl Layout<'_> {
         }
         let rest = Span::new(self.tree.tokens[end].span().end, self.source.text().len());
         let rest = self.source.slice(rest);
-        let is_empty = rest.trim().is_empty();
+        let is_empty = rest.trim_ascii().is_empty();
         self.out
             .push_str(if is_empty { self.line_end } else { rest });
     }
 
-    /// Keeps the `;` behind a statement whose last mark would continue it else.
-    fn open_end(&mut self, at: usize) {
-        let open = matches!(self.kind(at - 1), TokenKind::Comma | TokenKind::Ampersand);
-        let behind = self.tree.tokens[at..]
+    /// Keeps the `;` behind a statement whose last mark, as it is written, would continue it else.
+    fn open_end(&mut self, written: usize, end: usize) {
+        let open = matches!(self.kind(end - 1), TokenKind::Comma | TokenKind::Ampersand);
+        let behind = self.tree.tokens[end..]
             .iter()
             .find(|token| !token.is_trivia());
-        if open && behind.is_some_and(|token| token.kind == TokenKind::Semicolon) {
+        let closed = behind.is_some_and(|token| token.kind == TokenKind::Semicolon);
+        if written == end && open && closed {
             self.out.push(';');
         }
     }
@@ -143,8 +143,11 @@ impl Layout<'_> {
             match self.kind(token) {
                 TokenKind::Newline => newlines += 1,
                 TokenKind::Line => {
+                    // Commands begin behind an empty line also where the first line names the
+                    // model: the line after it would name the output.
+                    let first = !self.started && self.language == Language::Commands;
                     self.line(self.source.slice(self.tree.tokens[token].span()));
-                    newlines = 0;
+                    newlines = usize::from(first);
                 }
                 TokenKind::Comment => {
                     self.blank = newlines > 1;
@@ -162,10 +165,10 @@ impl Layout<'_> {
         let text = self.source.slice(self.tree.tokens[token].span());
         if own_line || !self.started {
             self.blank_line();
-            self.line(text.trim_end());
+            self.line(text.trim_ascii_end());
         } else {
             self.out.push(' ');
-            self.out.push_str(text.trim_end());
+            self.out.push_str(text.trim_ascii_end());
         }
     }
 
@@ -190,6 +193,8 @@ impl Layout<'_> {
                 self.separator(segment.tokens.end..end);
             }
         }
+        let written = segments.last().map_or(0, |segment| segment.tokens.end);
+        self.open_end(written, statement.tokens.end);
         let grammar = parts.and_then(|parts| parts.grammar);
         let stops = grammar.is_some_and(|grammar| grammar.name == "STOP");
         stops && self.language == Language::Commands
@@ -271,7 +276,8 @@ impl Layout<'_> {
             {
                 return None;
             }
-            if segment.role == Role::Argument && !line.ends_with('/') {
+            let behind_slash = index == 1 && line.ends_with('/');
+            if segment.role == Role::Argument && !behind_slash {
                 line.push_str(", ");
             }
             let (start, pieces) = self.pieces(segment, segment.tokens.clone(), true, false);
@@ -312,7 +318,7 @@ impl Layout<'_> {
             if segment.role == Role::Whole {
                 let span = |token: usize| self.tree.tokens[token].span();
                 let text = span(line.start).to(span(line.end - 1));
-                self.line(self.source.slice(text).trim());
+                self.line(self.source.slice(text).trim_ascii());
                 continue;
             }
             let comment = Some(line.end - 1).filter(|last| self.kind(*last) == TokenKind::Comment);
@@ -325,7 +331,7 @@ impl Layout<'_> {
                     ""
                 };
                 for line in fill(&format!("{comma}{start}"), &pieces, breaks) {
-                    self.line(line.trim_end());
+                    self.line(line.trim_ascii_end());
                 }
             }
             if let Some(comment) = comment {

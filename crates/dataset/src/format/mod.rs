@@ -8,9 +8,6 @@ use crate::document;
 use crate::source::{Source, Span};
 use crate::syntax::{Language, SyntaxTree, TokenKind};
 
-/// Layouts of one text at most; two serve for all that was met.
-const MOST_LAYOUTS: usize = 4;
-
 /// Lays a dataset or command file out anew. Only blanks, line ends, marks of continuation and `;`
 /// change; words, numbers, texts and comments stay as they are written.
 ///
@@ -42,32 +39,14 @@ pub fn format(source: &Source, language: Language) -> Result<String, Vec<Diagnos
     if !errors.is_empty() {
         return Err(errors);
     }
-    let written = stable(lay_out(source, language), language);
+    let tree = SyntaxTree::new(source, language);
+    let written = Source::from_text(source.name(), layout::text(source, &tree, language));
     let (after, errors) = document::read(&written, language);
     let same = errors.is_empty() && before == after;
     if same && comments(source, language) == comments(&written, language) {
         return Ok(written.text().to_string());
     }
     Err(vec![document::difference(source, &before, &after)])
-}
-
-fn lay_out(source: &Source, language: Language) -> Source {
-    let tree = SyntaxTree::new(source, language);
-    let text = layout::text(source, &tree, language);
-    Source::from_text(source.name(), text)
-}
-
-/// Lays out again what another layout would still change: a mark that the first one needed may be
-/// needless on its new line.
-fn stable(mut written: Source, language: Language) -> Source {
-    for _ in 0..MOST_LAYOUTS {
-        let again = lay_out(&written, language);
-        if again.text() == written.text() {
-            break;
-        }
-        written = again;
-    }
-    written
 }
 
 /// All comments of a text, without blanks at their ends.
@@ -77,6 +56,6 @@ fn comments(source: &Source, language: Language) -> Vec<String> {
         .tokens
         .iter()
         .filter(|token| token.kind == TokenKind::Comment);
-    let text = |span: Span| source.slice(span).trim_end().to_string();
+    let text = |span: Span| source.slice(span).trim_ascii_end().to_string();
     comments.map(|token| text(token.span())).collect()
 }

@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
             self.expected(raw, path, "a string of one line", found);
             return None;
         }
-        Some(text.trim_end().to_string())
+        Some(text.trim_ascii_end().to_string())
     }
 
     fn lines(&mut self, raw: &'a RawValue, path: &str) -> Vec<String> {
@@ -180,7 +180,7 @@ impl<'a> Reader<'a> {
                 "comments" => self.document.comments = self.lines(raw, "comments"),
                 "after_end" => {
                     let text = self.string(raw, "after_end").unwrap_or_default();
-                    self.document.rest = text.trim().to_string();
+                    self.document.rest = text.trim_ascii().to_string();
                 }
                 _ => {
                     let span = name_place(self.source, &name, raw);

@@ -156,6 +156,10 @@ impl<'a> Grouping<'a> {
         };
         // END stays, too: it may have ended the statement before.
         let first = comment.unwrap_or(self.at).min(self.end.unwrap_or(self.at));
+        // Moving the rest costs no more than what is forgotten: a long line is read in linear time.
+        if 2 * first < self.lexer.tokens.len() {
+            return;
+        }
         self.lexer.tokens.drain(..first);
         self.at -= first;
         let positions = [&mut self.name_comment, &mut self.end];

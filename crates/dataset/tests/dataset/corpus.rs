@@ -1,6 +1,5 @@
 //! Real files: which of them are read without error, and what the others need.
 
-use crate::shared::models;
 use dataset::{Code, Diagnostic, Severity, Source, read_commands, read_dataset};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,7 +25,7 @@ fn the_models_with_results_of_adams_read_without_error() {
         return;
     };
     let mut failed = Vec::new();
-    for path in models(&folder) {
+    for path in reference_data::models(&folder) {
         // The real run starts with an equilibrium, which is read like any other analysis.
         let (source, diagnostics) = read(&path);
         let errors = diagnostics.iter().filter(|diagnostic| is_error(diagnostic));
@@ -60,7 +59,7 @@ fn the_corpus_is_read_and_what_is_missing_is_listed() {
     let mut without_error = 0;
     let mut missing: BTreeMap<String, (usize, usize)> = BTreeMap::new();
     let mut unknown = Vec::new();
-    let files = models(&folder);
+    let files = reference_data::models(&folder);
     for path in &files {
         let (source, diagnostics) = read(path);
         let mut in_this_file: BTreeMap<String, usize> = BTreeMap::new();

@@ -1,6 +1,6 @@
 //! The layout of datasets and command files: what it is, that it is stable, that nothing is lost.
 
-use crate::shared::{models, without_places};
+use crate::shared::without_places;
 use dataset::{Code, Language, Source, format, read_commands, read_dataset};
 use std::path::Path;
 
@@ -136,7 +136,11 @@ fn real_files_mean_the_same_and_are_stable() {
     let mut files = 0;
     let mut refused = Vec::new();
     let folders = ["corpus", "adams-results"].map(reference_data::path);
-    for path in folders.iter().flatten().flat_map(|folder| models(folder)) {
+    for path in folders
+        .iter()
+        .flatten()
+        .flat_map(|folder| reference_data::models(folder))
+    {
         let bytes = std::fs::read(&path).expect("the file can be read");
         let source = Source::from_bytes("file", &bytes).expect("the file is text");
         let language = language(&path);

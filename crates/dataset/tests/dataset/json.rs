@@ -2,7 +2,7 @@
 //!
 //! `STICTION_RENEW=1 cargo test -p dataset json` writes docs/model.schema.json anew.
 
-use crate::shared::{models, without_places};
+use crate::shared::without_places;
 use boon::{Compiler, SchemaIndex, Schemas};
 use dataset::{Language, Source, from_json, json_schema, read_dataset, to_json};
 use proptest::prelude::*;
@@ -73,7 +73,7 @@ fn real_models_come_back_the_same() {
     let folders = ["corpus", "adams-results"].map(reference_data::path);
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let folders = folders.into_iter().flatten().chain([examples]);
-    for path in folders.flat_map(|folder| models(&folder)) {
+    for path in folders.flat_map(|folder| reference_data::models(&folder)) {
         if path.extension().is_none_or(|extension| extension != "adm") {
             continue;
         }

@@ -1,26 +1,6 @@
-//! Files of the reference data, and diagnostics with the text that they mark.
+//! Diagnostics with the text that they mark.
 
 use dataset::{Code, Dataset, Diagnostic, Severity, Source, read_dataset};
-use std::path::{Path, PathBuf};
-
-/// The datasets and command files in a folder and below, in the order of their names.
-pub(crate) fn models(folder: &Path) -> Vec<PathBuf> {
-    let mut folders = vec![folder.to_path_buf()];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).expect("the folder can be read") {
-            let path = entry.expect("the entry can be read").path();
-            let extension = path.extension().and_then(|extension| extension.to_str());
-            match extension {
-                _ if path.is_dir() => folders.push(path),
-                Some("adm" | "acf") => files.push(path),
-                _ => {}
-            }
-        }
-    }
-    files.sort();
-    files
-}
 
 /// A diagnostic with the text that it marks.
 #[derive(Debug, PartialEq)]

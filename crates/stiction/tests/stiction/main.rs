@@ -12,6 +12,7 @@ mod commands;
 mod corpus;
 mod couplers;
 mod curves;
+mod damage;
 mod delta_robot;
 mod diagnostics;
 mod differential;
