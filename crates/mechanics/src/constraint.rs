@@ -6,7 +6,7 @@ use crate::model::{Element, JointKind, Level, Model, MotionFreedom};
 use serde::{Deserialize, Serialize};
 
 /// The element that a constraint equation belongs to, by its place in the model's lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Owner {
     /// A joint or joint primitive.
     Joint(usize),
@@ -169,7 +169,7 @@ pub(crate) fn codirected_axes(kind: JointKind) -> &'static [usize] {
     }
 }
 
-/// All equations of a model, in the order of its lists.
+/// All equations of a model, in the order of its lists, which is that of their owners.
 pub(crate) fn list(model: &Model) -> Vec<Constraint> {
     let mut constraints = Vec::new();
     let body_of = |marker: usize| model.markers[marker].body;
@@ -231,6 +231,12 @@ pub(crate) fn list(model: &Model) -> Vec<Constraint> {
         });
     }
     constraints
+}
+
+/// The places of an element's equations in such a list.
+pub(crate) fn places_of(constraints: &[Constraint], owner: Owner) -> std::ops::Range<usize> {
+    let first = constraints.partition_point(|constraint| constraint.owner < owner);
+    first..constraints.partition_point(|constraint| constraint.owner <= owner)
 }
 
 /// Name of an equation as messages give it: axes of I and J, `Rij` from J's origin to I's.

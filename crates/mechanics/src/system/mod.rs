@@ -36,7 +36,7 @@ mod single_force;
 mod switches;
 mod works;
 
-use crate::constraint::{Constraint, Evaluated, Form, Owner, list};
+use crate::constraint::{Constraint, Evaluated, Form, Owner, list, places_of};
 use crate::equation::Equation;
 use crate::expression::{Input, Program};
 use crate::force_element::{ForceElement, Side};
@@ -411,13 +411,9 @@ fn element_functions(model: &Model) -> impl Iterator<Item = &Program> {
 }
 
 fn reaction_of(constraints: &[Constraint], joint: usize) -> Vec<Contribution> {
-    let of_joint = constraints
-        .iter()
-        .enumerate()
-        .filter(|(_, c)| c.owner == Owner::Joint(joint));
-    of_joint
-        .filter_map(|(constraint, c)| {
-            let share = match c.form {
+    places_of(constraints, Owner::Joint(joint))
+        .filter_map(|constraint| {
+            let share = match constraints[constraint].form {
                 Form::Pair {
                     equation: Equation::Along(axis),
                     ..

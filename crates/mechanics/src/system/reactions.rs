@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::System;
-use crate::constraint::{Constraint, Evaluated, Form, Owner};
+use crate::constraint::{Constraint, Evaluated, Form, Owner, places_of};
 use crate::equation::Equation;
 use crate::joint_friction::{self, Element, Share, Slopes};
 use crate::model::Element as ModelElement;
@@ -16,8 +16,8 @@ impl System {
     /// of I, ground axes; zero for a general constraint without a marker I.
     pub(crate) fn reaction_on_i(&self, owner: Owner, multipliers: &[f64]) -> Wrench {
         let mut wrench = Wrench::default();
-        let constraints = self.constraints.iter().zip(&self.evaluated);
-        for (constraint, evaluated) in constraints.filter(|(c, _)| c.owner == owner) {
+        for place in places_of(&self.constraints, owner) {
+            let (constraint, evaluated) = (&self.constraints[place], &self.evaluated[place]);
             let Some(row) = constraint.row else { continue };
             match (constraint.form, owner) {
                 (Form::Pair { i, .. }, _) => {

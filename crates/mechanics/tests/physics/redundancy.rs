@@ -196,3 +196,40 @@ fn assembly_changes_as_little_as_needed_and_says_so() {
     assert!(assembly.moved[0].angle < 1e-9, "{:?}", assembly.moved);
     assert!((assembly.moved[0].distance - gap.norm()).abs() < 1e-9);
 }
+
+#[test]
+fn every_loop_of_a_row_of_four_bars_has_its_redundant_equations() {
+    // Each four-bar hangs on the coupler of the one before, so that the loops share bodies in pairs.
+    const LOOPS: usize = 12;
+    let mut b = Builder::new(v(0.0, -9.81, 0.0));
+    let mut base = None;
+    for k in 0..LOOPS {
+        let at = |x: f64, y: f64| v(3.0 * k as f64 + x, y, 0.0);
+        let points = [at(0.0, 0.0), at(0.2, 1.0), at(1.5, 1.4), at(1.2, 0.0)];
+        let [crank, coupler, rocker] =
+            [0, 1, 2].map(|rod| b.rod(1.0, points[rod], points[rod + 1]));
+        b.pin(Some(crank), base, points[0]);
+        b.pin(Some(coupler), Some(crank), points[1]);
+        b.pin(Some(rocker), Some(coupler), points[2]);
+        b.pin(Some(rocker), base, points[3]);
+        base = Some(coupler);
+    }
+    // What hangs on the last coupler alone is no part of a loop, but a joint doubled is one.
+    let hanging = b.rod(1.0, v(0.0, 9.0, 0.0), v(0.0, 8.0, 0.0));
+    b.pin(Some(hanging), base, v(0.0, 9.0, 0.0));
+    b.pin(Some(hanging), base, v(0.0, 9.0, 0.0));
+    let mut simulation = Simulation::new(b.model, 1.0);
+    let assembly = simulation.assemble().expect("it assembles");
+    let dropped = |joint: usize| {
+        let of_joint = assembly.redundant.iter();
+        of_joint
+            .filter(|r| r.owner.id as usize == joint + 1)
+            .count()
+    };
+    // The last joint of each planar loop keeps two equations.
+    let counts: Vec<usize> = (0..4 * LOOPS + 2).map(dropped).collect();
+    let mut expected: Vec<usize> = [[0, 0, 0, 3]; LOOPS].concat();
+    expected.extend([0, 5]);
+    assert_eq!(counts, expected);
+    assert_eq!(simulation.system().degrees_of_freedom(), LOOPS + 1);
+}
