@@ -31,11 +31,11 @@
 
 mod positions;
 mod quadrature;
+mod scales;
 mod switching;
 
 use numerics::bdf::{self, Verdict, Within};
 use numerics::linear::{FrontalLu, Matrix};
-use serde::{Deserialize, Serialize};
 
 use crate::instant::Failure;
 use crate::joint_friction::Memory;
@@ -43,6 +43,8 @@ use crate::model::Level;
 use crate::state::{POSITIONS, State, VELOCITIES};
 use crate::system::{Rows, System, Weights};
 use quadrature::Quadrature;
+pub(crate) use scales::Scales;
+use scales::raise;
 pub use switching::Sliding;
 use switching::Switching;
 
@@ -72,9 +74,6 @@ const GROWTHS: usize = 5;
 /// Steps that are solved as I3 once SI2 has failed, so that a nearly singular position is behind.
 const INDEX3_STEPS: usize = 10;
 
-/// Magnitude below which differential states count as small, in their own unit.
-const SMALLEST_STATE: f64 = 1e-6;
-
 /// How an attempt at a step uses the Newton matrix.
 ///
 /// Attempts go from cheap to sure. The friction law has a kink in the velocity at rest where there is
@@ -98,29 +97,6 @@ pub struct Work {
     pub factorisations: usize,
     /// Steps of SI2 that were solved as I3, near a position where constraints depend on others.
     pub index3_steps: usize,
-}
-
-/// Scales that make the error test independent of the choice of units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Scales {
-    /// Typical length.
-    pub(crate) length: f64,
-    /// Largest rate so far, at least one per second: velocities count relative to it.
-    pub(crate) rate: f64,
-}
-
-impl Scales {
-    /// Raises the rate to that of the velocities.
-    pub(crate) fn observe(&mut self, velocities: &[f64]) {
-        for (k, u) in velocities.iter().enumerate() {
-            let rate = if k % 6 < 3 {
-                u.abs() / self.length
-            } else {
-                u.abs()
-            };
-            self.rate = self.rate.max(rate);
-        }
-    }
 }
 
 /// The step equations with their storage.
@@ -166,13 +142,6 @@ pub(crate) struct Dynamics {
     rate: f64,
 }
 
-/// Raises scales to the magnitudes of values.
-fn raise(scales: &mut [f64], values: &[f64]) {
-    for (scale, value) in scales.iter_mut().zip(values) {
-        *scale = scale.max(value.abs());
-    }
-}
-
 impl Dynamics {
     pub(crate) fn new(system: System, scales: Scales) -> Self {
         let n = system.rate_count();
@@ -197,7 +166,7 @@ impl Dynamics {
             quadrature: Quadrature::new(system.work_count()),
             switching: Switching::default(),
             state,
-            state_scales: vec![SMALLEST_STATE; n - moving],
+            state_scales: vec![0.0; n - moving],
             shift: vec![0.0; moving],
             impulses: vec![0.0; multipliers],
             trial: vec![0.0; multipliers],
@@ -227,9 +196,12 @@ impl Dynamics {
         self.rate = 0.0;
     }
 
-    /// Raises the scales to the velocities and differential states of `state`.
-    pub(crate) fn observe(&mut self, state: &State) {
+    /// Raises the scales to the velocities and differential states of `state`, from which a run to
+    /// `end` begins.
+    pub(crate) fn observe(&mut self, state: &State, end: f64) {
         self.scales.observe(state.velocities());
+        let small = self.scales.small_states(&mut self.system, state, end);
+        raise(&mut self.state_scales, &small);
         raise(&mut self.state_scales, state.states());
     }
 

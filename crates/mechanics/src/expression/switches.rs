@@ -364,3 +364,150 @@ impl Program {
         true
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scalar::Jet;
+
+    /// One program for each function that jumps, of two measures x and y, with an argument that is
+    /// not simply one of them.
+    fn programs() -> Vec<Program> {
+        let mut made = Vec::new();
+        for function in 0..5 {
+            let mut program = Program::default();
+            let x = program.push(Operation::Input(Input::Measure(0)));
+            let y = program.push(Operation::Input(Input::Measure(1)));
+            let product = program.push(Operation::Binary(Binary::Multiply, x, y));
+            let sine = program.push(Operation::Unary(Unary::Sin, product));
+            let value = program.push(match function {
+                0 => Operation::If(sine, x, product, y),
+                1 => Operation::Binary(Binary::Sign, product, sine),
+                2 => Operation::Binary(Binary::Modulo, product, y),
+                3 => Operation::Unary(Unary::Truncate, product),
+                _ => Operation::Unary(Unary::Round, product),
+            });
+            program.push(Operation::Binary(Binary::Multiply, value, product));
+            assert_eq!(program.switch_count(), 1);
+            made.push(program);
+        }
+        made
+    }
+
+    fn branches() -> [Branch; 4] {
+        let sharing = |share, steepness| {
+            Branch::Shared(Sharing {
+                lower: -1.0,
+                upper: 1.0,
+                share,
+                steepness,
+                boundary: 0.2,
+            })
+        };
+        [
+            Branch::Held(-1.0),
+            Branch::Held(1.0),
+            sharing(0.3, 0.0),
+            sharing(0.5, 4.0),
+        ]
+    }
+
+    #[test]
+    fn switches_in_every_branch_have_exact_gradients_and_jets() {
+        let at = [(1.3, 0.7), (-0.4, 1.7), (0.9, -1.1)];
+        for mut program in programs() {
+            for branch in branches() {
+                program.set_branch(0, branch);
+                for (x, y) in at {
+                    let read = |x: f64, y: f64| {
+                        move |input| if input == Input::Measure(0) { x } else { y }
+                    };
+                    let value = |x, y| program.evaluate(&mut [0.0; 6], read(x, y));
+                    let mut registers = [0.0; 6];
+                    program.evaluate(&mut registers, read(x, y));
+                    let mut slopes = [0.0; 2];
+                    program.gradient(&registers, &mut [0.0; 6], |input, slope| {
+                        slopes[usize::from(input == Input::Measure(1))] += slope;
+                    });
+                    let h = 1e-6;
+                    let by_x = (value(x + h, y) - value(x - h, y)) / (2.0 * h);
+                    let by_y = (value(x, y + h) - value(x, y - h)) / (2.0 * h);
+                    // Rounding 1e-16/h, truncation h² times third derivatives of up to a hundred.
+                    assert!((slopes[0] - by_x).abs() < 1e-7, "{program:?} {branch:?}");
+                    assert!((slopes[1] - by_y).abs() < 1e-7, "{program:?} {branch:?}");
+
+                    let jet = |t: f64| {
+                        let made = |value, rate| Jet {
+                            value: value + t * rate,
+                            rate,
+                            acceleration: 0.0,
+                        };
+                        let zero = Jet {
+                            value: 0.0,
+                            rate: 0.0,
+                            acceleration: 0.0,
+                        };
+                        program.run(&mut [zero; 6], |input| {
+                            if input == Input::Measure(0) {
+                                made(x, 0.6)
+                            } else {
+                                made(y, -0.8)
+                            }
+                        })
+                    };
+                    let h = 1e-4;
+                    let rate = (jet(h).value - jet(-h).value) / (2.0 * h);
+                    let acceleration = (jet(h).rate - jet(-h).rate) / (2.0 * h);
+                    // Truncation h²/6 times the next derivatives, of up to some hundred.
+                    assert!((jet(0.0).rate - rate).abs() < 1e-5);
+                    assert!((jet(0.0).acceleration - acceleration).abs() < 1e-4);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_argument_has_its_gradient_and_its_cell() {
+        for program in programs() {
+            let read = |x: f64, y: f64| move |input| if input == Input::Measure(0) { x } else { y };
+            let argument = |x, y| {
+                let mut registers = [0.0; 6];
+                program.evaluate(&mut registers, read(x, y));
+                program.switch_argument(0, &registers)
+            };
+            let (x, y, h) = (1.3, 0.7, 1e-6);
+            let mut registers = [0.0; 6];
+            program.evaluate(&mut registers, read(x, y));
+            let mut slopes = [0.0; 2];
+            program.argument_gradient(0, &registers, &mut [0.0; 6], |input, slope| {
+                slopes[usize::from(input == Input::Measure(1))] += slope;
+            });
+            let by_x = (argument(x + h, y) - argument(x - h, y)) / (2.0 * h);
+            let by_y = (argument(x, y + h) - argument(x, y - h)) / (2.0 * h);
+            assert!((slopes[0] - by_x).abs() < 1e-8 && (slopes[1] - by_y).abs() < 1e-8);
+            // Within a cell nothing is outside, beyond its ends nothing is inside.
+            for argument in [-2.7, -1.0, -0.3, 0.0, 0.4, 0.6, 1.0, 2.2] {
+                let cell = program.switch_cell(0, argument);
+                assert!(program.outside_cell(0, cell, argument) <= 0.0, "{argument}");
+                let other = program.switch_cell(0, argument + 5.0);
+                assert!(other == cell || program.outside_cell(0, other, argument) >= 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn what_depends_on_time_alone_is_known_to() {
+        let mut program = Program::default();
+        let t = program.push(Operation::Input(Input::Time));
+        let x = program.push(Operation::Input(Input::Measure(0)));
+        let one = program.push(Operation::Constant(1.0));
+        let sine = program.push(Operation::Unary(Unary::Sin, t));
+        let sum = program.push(Operation::Binary(Binary::Add, sine, x));
+        program.push(Operation::If(sine, x, one, sum));
+        program.push(Operation::If(sum, x, one, sum));
+        program.push(Operation::If(one, x, one, sum));
+        // The last one never switches.
+        assert_eq!(program.switch_count(), 2);
+        assert!(program.is_switch_of_time(0) && !program.is_switch_of_time(1));
+    }
+}

@@ -82,7 +82,7 @@ impl Simulation {
         };
         dynamics.newton_iterations = settings.newton_iterations;
         dynamics.steps = [settings.shortest_step, settings.longest_step];
-        dynamics.observe(&self.state);
+        dynamics.observe(&self.state, end);
         dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
         bdf.set_settings(limits);
         let slope = self.slope();

@@ -18,7 +18,7 @@ use crate::model::{Definition, Form, Label};
 
 impl System {
     /// `f` of the differential states; zero for one that a static solution holds.
-    pub(super) fn state_functions(&mut self, out: &mut [f64]) {
+    pub(crate) fn state_functions(&mut self, out: &mut [f64]) {
         for (place, out) in out.iter_mut().enumerate() {
             *out = if self.holds(place) {
                 0.0

@@ -2,7 +2,7 @@
 
 use super::System;
 use crate::expression::{Branch, Input, Program};
-use crate::model::{Definition, Element, Form, Label};
+use crate::model::{Definition, DifferentialState, Element, Form, Label};
 
 /// Variables that read one another, one behind the other, through which units are followed.
 const NESTING: usize = 3;
@@ -229,6 +229,32 @@ impl System {
                 }
             }
         }
+        self.return_scratch(registers, adjoints);
+        found
+    }
+
+    /// How fast differential states change when what their functions read, the states themselves and
+    /// time left out, is one unit each; zero where that is not known.
+    pub(crate) fn state_units(&mut self, units: &Units<'_>) -> Vec<f64> {
+        self.evaluate_slopes();
+        let variables = self.variable_units(units);
+        let (mut registers, mut adjoints) = self.take_scratch();
+        let unit = |(place, state): (usize, &DifferentialState)| {
+            let function = &state.function;
+            function.evaluate(&mut registers, |input| self.inputs.read(input));
+            let mut sum = 0.0;
+            function.gradient(&registers, &mut adjoints, |input, slope| {
+                if !matches!(input, Input::State(own) | Input::StateRate(own) if own == place) {
+                    sum += slope.abs() * self.input_unit(input, units, &variables);
+                }
+            });
+            match state.form {
+                Form::Explicit if f64::is_finite(sum) => sum,
+                Form::Explicit => 0.0,
+                Form::Implicit => f64::INFINITY,
+            }
+        };
+        let found = self.model.states.iter().enumerate().map(unit).collect();
         self.return_scratch(registers, adjoints);
         found
     }

@@ -15,6 +15,8 @@
 
 mod history;
 mod integrator;
+#[cfg(test)]
+mod integrator_test;
 
 pub use history::History;
 pub use integrator::{Bdf, Error, Settings, Statistics};

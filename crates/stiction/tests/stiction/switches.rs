@@ -447,3 +447,42 @@ fn runs_with_jumps_are_the_same_every_time() {
     }
     assert_eq!(first.report.statistics, second.report.statistics);
 }
+
+#[test]
+fn states_of_any_magnitude_are_integrated_to_the_tolerance() {
+    // y' = -3 y + a sin 50 t from y = b: y = (b + c 50) e^{-3t} + c (3 sin 50t - 50 cos 50t), c = a/2509.
+    let exact = |a: f64, b: f64, t: f64| {
+        let c = a / 2509.0;
+        (b + 50.0 * c) * (-3.0 * t).exp() + c * (3.0 * (50.0 * t).sin() - 50.0 * (50.0 * t).cos())
+    };
+    let magnitudes = [
+        (1e-12, 1e-12),
+        (1e-12, 0.0),
+        (1.0, 1.0),
+        (1e9, 1e9),
+        (0.0, 1e-15),
+    ];
+    for (a, b) in magnitudes {
+        let statements = format!(
+            "DIFF/1, IC={b:E}, FUNCTION=-3*DIF(1) + {a:E}*SIN(50*TIME)\nREQUEST/2, F2=DIF(1)"
+        );
+        for error in ERRORS {
+            let ran = run(
+                &block(&statements, &format!("SI2, ERROR={error:E}")),
+                1.0,
+                50,
+            );
+            let times = ran.results.get("time.TIME").unwrap();
+            let states = ran.results.get("REQUEST_2.F2").unwrap();
+            let pairs = times.iter().zip(&states).skip(1);
+            let worst = pairs.fold(0.0_f64, |m, (t, y)| m.max((y - exact(a, b, *t)).abs()));
+            let relative = worst / b.max(a / 50.0);
+            println!(
+                "{a:e} {b:e}: error {error:e}: {relative:.1e}, {} steps",
+                ran.steps()
+            );
+            // Some hundred steps, each of which may be off by the tolerance.
+            assert!(relative < 100.0 * error, "{a:e} {b:e}");
+        }
+    }
+}

@@ -15,18 +15,18 @@
 //!
 //! A switch that only bends its function, or less, is stepped over like any other bend.
 
-use numerics::bdf::{self, Verdict, Within};
+mod location;
+mod switch;
+
+use numerics::bdf;
 
 use super::Dynamics;
 use crate::expression::{Branch, Sharing};
 use crate::model::Label;
 use crate::state::State;
-use crate::system::{Reading, SwitchPlace, System, Units};
+use crate::system::{Reading, System};
+use switch::Switch;
 
-/// Solutions for one jump, at most.
-const LOCATIONS: usize = 8;
-/// Part of the width behind a jump at which it is looked for.
-const AIM: f64 = 0.02;
 /// A switch that turns back within so many widths has not left its jump,
 const NEAR: f64 = 4.0;
 /// and after so many times it is held there.
@@ -42,17 +42,6 @@ const SHARE_ERROR: f64 = 1e-3;
 const FIRST_STEPS: usize = 3;
 /// Steps below this part of the longest have no test of the shares.
 const SHORT: f64 = 1e-3;
-/// Share beyond 0 or 1 at which a switch may leave its jump.
-const LEAVING: f64 = 1e-5;
-/// A jump below this part of what the sides differ by elsewhere is a bend.
-const BEND: f64 = 1e-3;
-/// A jump this part of a step behind its beginning, or less than the shortest step, is at its
-/// beginning.
-const AT_START: f64 = 1e-10;
-/// Switches that are turned over without a step between, before a step goes over them.
-const STILL: usize = 20;
-/// Evaluations to find a root.
-const ROOT: usize = 200;
 
 /// A motion that stays where a function jumps.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,75 +54,6 @@ pub struct Sliding {
     pub time: f64,
     /// How near to the jump its argument is held, in the unit of the argument.
     pub width: f64,
-}
-
-#[derive(Clone, Debug)]
-struct Switch {
-    place: SwitchPlace,
-    /// Whether its argument depends on nothing but time.
-    of_time: bool,
-    /// Whether a bend of it, too, is to be met.
-    constrains: bool,
-    branch: Branch,
-    /// The cell that it goes to after the present step.
-    target: Option<f64>,
-    /// Whether it was turned over at the present instant.
-    turned: bool,
-    /// Error of the argument that the tolerance allows.
-    width: f64,
-    /// How far within its cell it has been.
-    reach: f64,
-    /// How often it has turned back within a few widths, one time after the other.
-    returns: usize,
-    /// How much wider than the tolerance allows it is.
-    widening: f64,
-    /// Turns since a time.
-    turns: usize,
-    since: f64,
-    /// Most that the sides of its jump differed by.
-    largest_jump: f64,
-}
-
-impl Switch {
-    /// How far it is outside of its cell.
-    fn outside(&self, system: &System, argument: f64) -> f64 {
-        match self.branch {
-            Branch::Free => f64::NEG_INFINITY,
-            Branch::Held(cell) => system.outside_cell(self.place, cell, argument),
-            Branch::Shared(sharing) => {
-                ((sharing.at(argument) - 0.5).abs() - 0.5) / sharing.steepness
-            }
-        }
-    }
-
-    /// The cell that it has left its own for.
-    fn left_for(&self, system: &System, argument: f64) -> Option<f64> {
-        match self.branch {
-            Branch::Free => None,
-            Branch::Held(cell) => {
-                let now = system.switch_cell(self.place, argument);
-                // The point of an IF at which its argument is zero is on the way to the other side.
-                let arrives = now == 0.0 && self.outside(system, argument) <= 0.0;
-                (now != cell && !arrives && !argument.is_nan()).then_some(now)
-            }
-            Branch::Shared(sharing) => {
-                let share = sharing.at(argument);
-                if share > 1.0 {
-                    Some(sharing.upper)
-                } else {
-                    (share < 0.0).then_some(sharing.lower)
-                }
-            }
-        }
-    }
-
-    /// How far behind its jump it may be turned over.
-    fn tolerance(&self) -> f64 {
-        match self.branch {
-            Branch::Shared(sharing) => LEAVING / sharing.steepness,
-            Branch::Held(_) | Branch::Free => self.width,
-        }
-    }
 }
 
 /// The switches of a model while it is integrated.
@@ -162,26 +82,7 @@ impl Switching {
     pub(super) fn start(&mut self, system: &mut System) {
         self.switches.clear();
         for place in system.switches() {
-            let branch = if system.switch_acts(place) {
-                Branch::Held(0.0)
-            } else {
-                Branch::Free
-            };
-            self.switches.push(Switch {
-                place,
-                of_time: system.is_switch_of_time(place),
-                constrains: system.switch_constrains(place),
-                branch,
-                target: None,
-                turned: false,
-                width: 0.0,
-                reach: 0.0,
-                returns: 0,
-                widening: 1.0,
-                turns: 0,
-                since: f64::NEG_INFINITY,
-                largest_jump: 0.0,
-            });
+            self.switches.push(Switch::new(place, system));
         }
         self.readings = vec![Reading::default(); self.switches.len()];
         self.due = false;
@@ -226,215 +127,6 @@ impl Switching {
 
     fn any_left(&self, system: &System) -> bool {
         (0..self.switches.len()).any(|k| self.left_for(k, system).is_some())
-    }
-
-    /// Looks at a step that passed the error test and is evaluated at its end.
-    pub(super) fn judge(
-        &mut self,
-        dynamics: &mut Dynamics,
-        step: &bdf::Step<'_>,
-        within: Within<'_>,
-    ) -> Verdict {
-        self.read(&mut dynamics.system);
-        if !self.any_left(&dynamics.system) {
-            return Verdict::Accept;
-        }
-        let cut = self.located == Some(step.time);
-        let mut met = true;
-        for k in 0..self.switches.len() {
-            if self.left_for(k, &dynamics.system).is_none() {
-                continue;
-            }
-            let switch = &mut self.switches[k];
-            switch.largest_jump = switch.largest_jump.max(self.readings[k].jump);
-            if !switch.of_time {
-                let units = Units {
-                    length: dynamics.scales.length,
-                    rate: dynamics.scales.rate,
-                    states: &dynamics.state_scales,
-                };
-                let unit = dynamics.system.switch_unit(switch.place, &units);
-                switch.width = switch.widening * dynamics.tolerance * unit;
-            }
-            let outside = switch.outside(&dynamics.system, self.readings[k].argument);
-            let near = outside <= switch.tolerance();
-            met &= near || cut && (switch.of_time || self.locations >= LOCATIONS);
-        }
-        let start = step.time - step.size;
-        let time = if met {
-            step.time
-        } else {
-            self.locate(dynamics, step, within)
-        };
-        if self.release_bends(&mut dynamics.system) {
-            self.located = None;
-            return Verdict::EndAt(step.time);
-        }
-        if time - start <= (AT_START * step.size).max(dynamics.steps[0]) {
-            self.still += 1;
-            if self.still > STILL {
-                // No order of turning them over leads on.
-                self.release_left(&mut dynamics.system);
-                return Verdict::EndAt(step.time);
-            }
-            self.turn_left(&dynamics.system);
-            return Verdict::Abandon;
-        }
-        if !met {
-            self.located = Some(time);
-            self.locations = if time < step.time {
-                self.locations + 1
-            } else {
-                LOCATIONS
-            };
-            return Verdict::EndAt(time);
-        }
-        self.turn_left(&dynamics.system);
-        Verdict::Accept
-    }
-
-    /// The switches that have left their cell go where they are, after the step.
-    fn turn_left(&mut self, system: &System) {
-        for k in 0..self.switches.len() {
-            self.switches[k].target = self.left_for(k, system);
-        }
-        self.due = true;
-    }
-
-    /// Lets go, for this step, of what has left its cell.
-    fn release_left(&mut self, system: &mut System) {
-        for k in 0..self.switches.len() {
-            if self.left_for(k, system).is_some() {
-                self.set_branch(k, Branch::Free, system);
-            }
-        }
-    }
-
-    /// Lets go, for this step, of what only bends where it has left its cell; whether there was any.
-    fn release_bends(&mut self, system: &mut System) -> bool {
-        let mut any = false;
-        for k in 0..self.switches.len() {
-            let switch = &self.switches[k];
-            let held = matches!(switch.branch, Branch::Held(_)) && !switch.constrains;
-            let bends = self.readings[k].jump <= BEND * switch.largest_jump;
-            if held && bends && self.left_for(k, system).is_some() {
-                self.set_branch(k, Branch::Free, system);
-                any = true;
-            }
-        }
-        any
-    }
-
-    /// The first time within a step at which a switch is just behind its jump. What was read last is
-    /// then of that time.
-    fn locate(&mut self, dynamics: &mut Dynamics, step: &bdf::Step<'_>, within: Within<'_>) -> f64 {
-        self.rates[1].clone_from(&dynamics.change);
-        for rate in &mut self.rates[1] {
-            *rate /= step.gamma;
-        }
-        self.multipliers[1].clone_from(&dynamics.multipliers);
-        let mut end = step.time;
-        for k in 0..self.switches.len() {
-            if self.left_for(k, &dynamics.system).is_some() {
-                end = self.root(k, end, dynamics, step, within);
-                self.evaluate(end, false, dynamics, step, within);
-                self.read(&mut dynamics.system);
-            }
-        }
-        end
-    }
-
-    /// A time before `end`, at which switch `k` has left its cell, at which it has just done so: by
-    /// false position (Illinois), with a bisection in between.
-    fn root(
-        &mut self,
-        k: usize,
-        end: f64,
-        dynamics: &mut Dynamics,
-        step: &bdf::Step<'_>,
-        within: Within<'_>,
-    ) -> f64 {
-        let of_time = self.switches[k].of_time;
-        let mut outside = |time: f64, switching: &mut Self| {
-            switching.evaluate(time, of_time, dynamics, step, within);
-            let place = switching.switches[k].place;
-            let reading = &mut switching.readings[k..=k];
-            dynamics
-                .system
-                .read_switches(std::iter::once(place), reading);
-            let argument = reading[0].argument;
-            let switch = &switching.switches[k];
-            let left = switch.left_for(&dynamics.system, argument).is_some();
-            (switch.outside(&dynamics.system, argument), left)
-        };
-        let (mut a, mut b) = (step.time - step.size, end);
-        let (mut fa, left) = outside(a, self);
-        if left {
-            return a;
-        }
-        let (mut fb, _) = outside(b, self);
-        let rounding = 4.0 * f64::EPSILON * b.abs();
-        let tolerance = if of_time {
-            rounding * (fb - fa) / (b - a)
-        } else {
-            self.switches[k].tolerance()
-        };
-        let aim = AIM * tolerance;
-        (fa, fb) = (fa - aim, fb - aim);
-        let mut behind = fb + aim;
-        let mut stays = 0;
-        for n in 0..ROOT {
-            if behind <= tolerance || b - a <= rounding {
-                break;
-            }
-            let secant = b - fb * (b - a) / (fb - fa);
-            let c = if n % 3 == 2 || !(a < secant && secant < b) {
-                0.5 * (a + b)
-            } else {
-                secant
-            };
-            let (value, left) = outside(c, self);
-            if left {
-                (b, fb, behind) = (c, value - aim, value);
-                fa *= if stays > 0 { 0.5 } else { 1.0 };
-                stays = 1;
-            } else {
-                (a, fa) = (c, value - aim);
-                fb *= if stays < 0 { 0.5 } else { 1.0 };
-                stays = -1;
-            }
-        }
-        b
-    }
-
-    /// Evaluates the system at a time within a step; rates, reactions and variables change evenly.
-    fn evaluate(
-        &mut self,
-        time: f64,
-        time_alone: bool,
-        dynamics: &mut Dynamics,
-        step: &bdf::Step<'_>,
-        within: Within<'_>,
-    ) {
-        if time_alone {
-            dynamics.system.set_time(time);
-            return;
-        }
-        dynamics.state.time = time;
-        within(time, &mut dynamics.state.values);
-        dynamics.state.normalize();
-        dynamics.system.evaluate(&dynamics.state, false);
-        let left = (step.time - time) / step.size;
-        let mix = |[start, end]: &[Vec<f64>; 2], out: &mut [f64]| {
-            for (out, (start, end)) in out.iter_mut().zip(start.iter().zip(end)) {
-                *out = left * start + (1.0 - left) * end;
-            }
-        };
-        mix(&self.rates, &mut dynamics.change);
-        mix(&self.multipliers, &mut dynamics.trial);
-        dynamics
-            .system
-            .set_solution(&dynamics.change, 1.0, &dynamics.trial);
     }
 
     /// Takes over the end of an accepted step, which the switches were judged at.

@@ -1,0 +1,155 @@
+//! The integrator on equations with known solutions.
+
+use super::{Bdf, Error, Settings, Statistics, Step, System, Verdict, Within};
+
+/// y'' = −y as a first-order pair, solved exactly in each step.
+struct Oscillator {
+    tolerance: f64,
+}
+impl System for Oscillator {
+    type Failure = ();
+    fn solve(&mut self, step: &Step<'_>, y: &mut [f64]) -> Result<(), ()> {
+        let g = step.gamma;
+        let (a, b) = (step.history[0], step.history[1]);
+        y[0] = (a + g * b) / (1.0 + g * g);
+        y[1] = b - g * y[0];
+        Ok(())
+    }
+    fn norm(&self, d: &[f64]) -> f64 {
+        d[0].abs().max(d[1].abs()) / self.tolerance
+    }
+    fn accepted(&mut self, _: &Step<'_>, _: &[f64]) {}
+}
+
+fn run(tolerance: f64, highest_order: usize) -> (f64, Statistics) {
+    let settings = Settings {
+        highest_order,
+        longest_step: 1.0,
+        shortest_step: 1e-14,
+    };
+    let mut bdf = Bdf::new(2, settings);
+    bdf.start(0.0, &[1.0, 0.0], &[0.0, -1.0], 1e-3);
+    while bdf.time() < 10.0 {
+        bdf.advance(&mut Oscillator { tolerance }, 10.0).unwrap();
+    }
+    ((bdf.value()[0] - 10.0_f64.cos()).abs(), bdf.statistics())
+}
+
+#[test]
+fn tighter_tolerance_gives_smaller_error_at_every_order() {
+    for order in 1..=5 {
+        let (loose, _) = run(1e-4, order);
+        let (tight, _) = run(1e-6, order);
+        // Error per step is controlled; the global error follows it as tol^{k/(k+1)}, at least
+        // its square root. Two decades of tolerance must give well over half a decade.
+        assert!(tight < 0.3 * loose, "order {order}: {loose:e} {tight:e}");
+    }
+}
+
+#[test]
+fn high_order_needs_few_steps() {
+    let (error, statistics) = run(1e-8, 5);
+    // Observed 1.8e-6 with 186 steps; the bounds leave room for another tuning, not for a
+    // lost order, which costs decades.
+    assert!(error < 6e-6, "{error:e}");
+    assert!(statistics.steps < 300, "{statistics:?}");
+}
+
+#[test]
+fn a_step_ends_where_the_system_wants_it_to() {
+    /// y' = 1 until y = 0.3, then −1; the slope stays while a step is solved.
+    struct Turning {
+        slope: f64,
+        abandoned: bool,
+    }
+    impl System for Turning {
+        type Failure = ();
+        fn solve(&mut self, step: &Step<'_>, y: &mut [f64]) -> Result<(), ()> {
+            y[0] = step.history[0] + step.gamma * self.slope;
+            Ok(())
+        }
+        fn norm(&self, d: &[f64]) -> f64 {
+            d[0].abs() / 1e-6
+        }
+        fn judge(&mut self, step: &Step<'_>, y: &[f64], within: Within<'_>) -> Verdict {
+            if self.slope < 0.0 || y[0] <= 0.3 + 1e-12 {
+                return Verdict::Accept;
+            }
+            let start = step.time - step.size;
+            let (mut a, mut b, mut value) = (start, step.time, [0.0]);
+            for _ in 0..60 {
+                let middle = 0.5 * (a + b);
+                within(middle, &mut value);
+                if value[0] > 0.3 {
+                    b = middle;
+                } else {
+                    a = middle;
+                }
+            }
+            if a == start {
+                self.abandoned = true;
+                return Verdict::Abandon;
+            }
+            Verdict::EndAt(a)
+        }
+        fn accepted(&mut self, _: &Step<'_>, _: &[f64]) {}
+    }
+    let settings = Settings {
+        highest_order: 5,
+        longest_step: 1.0,
+        shortest_step: 1e-14,
+    };
+    let mut system = Turning {
+        slope: 1.0,
+        abandoned: false,
+    };
+    let mut bdf = Bdf::new(1, settings);
+    bdf.start(0.0, &[0.0], &[1.0], 1e-3);
+    while bdf.time() < 1.0 {
+        let before = bdf.time();
+        bdf.advance(&mut system, 1.0).unwrap();
+        if (bdf.value()[0] - 0.3).abs() < 1e-9 && system.slope > 0.0 {
+            system.slope = -1.0;
+            let value = bdf.value()[0];
+            bdf.start(bdf.time(), &[value], &[-1.0], 1e-3);
+        }
+        assert!(bdf.time() > before);
+    }
+    // Both pieces are lines, which the formulas take exactly.
+    assert!((bdf.value()[0] + 0.4).abs() < 1e-9 && !system.abandoned);
+    assert_eq!(bdf.statistics().rejections, 0);
+}
+
+#[test]
+fn a_failing_system_ends_with_its_last_good_state() {
+    struct Wall;
+    impl System for Wall {
+        type Failure = &'static str;
+        fn solve(&mut self, step: &Step<'_>, y: &mut [f64]) -> Result<(), &'static str> {
+            if step.time > 0.5 {
+                return Err("wall");
+            }
+            y[0] = step.history[0] + step.gamma;
+            Ok(())
+        }
+        fn norm(&self, d: &[f64]) -> f64 {
+            d[0].abs() * 1e6
+        }
+        fn accepted(&mut self, _: &Step<'_>, _: &[f64]) {}
+    }
+    let settings = Settings {
+        highest_order: 5,
+        longest_step: 0.1,
+        shortest_step: 1e-9,
+    };
+    let mut bdf = Bdf::new(1, settings);
+    bdf.start(0.0, &[0.0], &[1.0], 1e-3);
+    let error = loop {
+        if let Err(error) = bdf.advance(&mut Wall, 1.0) {
+            break error;
+        }
+    };
+    assert!(matches!(error, Error::Failed { cause: "wall", .. }));
+    assert!((bdf.value()[0] - bdf.time()).abs() < 1e-12);
+    assert!(bdf.time() <= 0.5);
+}
