@@ -236,16 +236,39 @@ impl<'a, 's> Reading<'a, 's> {
         }
     }
 
-    /// Takes an expression out of its argument, which has no value from then on.
+    /// Takes an expression that gives a number out of its argument, which has no value from then on.
     pub(crate) fn expression(&mut self, keyword: &str) -> Option<Expression> {
+        let help = "take a component, such as DX(i, j), or the magnitude, MAG(...)";
+        self.expression_of(keyword, false, "a number, not a vector", help)
+    }
+
+    /// The same for one that gives a vector.
+    pub(crate) fn vector_expression(&mut self, keyword: &str) -> Option<Expression> {
+        let help = "write a vector function, such as DXYZ(i, j), or [x, y, z]";
+        self.expression_of(keyword, true, "a vector", help)
+    }
+
+    fn expression_of(
+        &mut self,
+        keyword: &str,
+        vector: bool,
+        what: &str,
+        help: &str,
+    ) -> Option<Expression> {
         let given = self.arguments.iter_mut().filter(|a| a.keyword == keyword);
         let mut given = given.map(|argument| &mut argument.value);
         let is_expression =
             |value: &&mut Option<Value>| matches!(value, Some(Value::Expression(_)));
-        match given.find(is_expression)?.take()? {
-            Value::Expression(expression) => Some(expression),
-            _ => None,
+        let Value::Expression(expression) = given.find(is_expression)?.take()? else {
+            return None;
+        };
+        if expression.root.is_vector() != vector {
+            let message = format!("{keyword} takes {what}");
+            self.diagnostics
+                .error(Code::Expression, expression.span, message)
+                .help(help);
         }
+        Some(expression)
     }
 
     /// An expression that must be there; where it is not, that is reported and a zero is given.

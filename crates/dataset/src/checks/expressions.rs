@@ -29,7 +29,8 @@ fn all(dataset: &Dataset) -> impl Iterator<Item = (&Expression, Place)> {
         &dataset.general_forces,
     ];
     let vectors = vectors.into_iter().flat_map(|list| list.iter());
-    let vectors = vectors.flat_map(|element| element.components.iter().flatten());
+    let vectors =
+        vectors.flat_map(|element| element.components.iter().chain(&element.vectors).flatten());
     let variables = dataset.variables.iter().map(|element| &element.function);
     let differentials = dataset
         .differentials
@@ -195,6 +196,7 @@ fn report(dataset: &Dataset, missing: Vec<Named>, diagnostics: &mut Diagnostics)
 fn exists(dataset: &Dataset, kind: ArgumentKind, id: u32) -> bool {
     let element = match kind {
         ArgumentKind::Real
+        | ArgumentKind::Vector
         | ArgumentKind::Integer
         | ArgumentKind::Order
         | ArgumentKind::Coordinate => return true,

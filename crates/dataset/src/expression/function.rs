@@ -52,8 +52,10 @@ pub enum ElementKind {
 /// What an argument of a function is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ArgumentKind {
-    /// An expression.
+    /// An expression that gives a number.
     Real,
+    /// An expression that gives a vector.
+    Vector,
     /// A whole number.
     Integer,
     /// The order of a derivative: 0, 1 or 2.
@@ -68,7 +70,7 @@ pub enum ArgumentKind {
     Element(ElementKind),
 }
 
-use ArgumentKind::{Coordinate, Element, Integer, Marker, MarkerOrGround, Order, Real};
+use ArgumentKind::{Coordinate, Element, Integer, Marker, MarkerOrGround, Order, Real, Vector};
 use ElementKind as E;
 
 macro_rules! functions {
@@ -129,6 +131,37 @@ impl Function {
             count if position < count => kinds[position],
             count => kinds[count - 1],
         }
+    }
+
+    /// Whether it gives a vector.
+    #[must_use]
+    pub const fn gives_vector(self) -> bool {
+        self.components().is_some()
+            || matches!(
+                self,
+                Self::Uvx | Self::Uvy | Self::Uvz | Self::Uv | Self::Trans
+            )
+    }
+
+    /// The functions of the components of a vector, with the same arguments.
+    ///
+    /// ```
+    /// use dataset::Function;
+    /// let components = Function::Dxyz.components();
+    /// assert_eq!(components, Some([Function::Dx, Function::Dy, Function::Dz]));
+    /// assert_eq!(Function::Dm.components(), None);
+    /// ```
+    #[must_use]
+    pub const fn components(self) -> Option<[Self; 3]> {
+        Some(match self {
+            Self::Dxyz => [Self::Dx, Self::Dy, Self::Dz],
+            Self::Vxyz => [Self::Vx, Self::Vy, Self::Vz],
+            Self::Wxyz => [Self::Wx, Self::Wy, Self::Wz],
+            Self::Accxyz => [Self::Accx, Self::Accy, Self::Accz],
+            Self::Fxyz => [Self::Fx, Self::Fy, Self::Fz],
+            Self::Txyz => [Self::Tx, Self::Ty, Self::Tz],
+            _ => return None,
+        })
     }
 
     /// The function of this name, in any case.
@@ -235,12 +268,12 @@ functions! {
         "i, k" "unit vector along y of i, components along k";
     Uvz "UVZ" 1 [Marker, MarkerOrGround] 2
         "i, k" "unit vector along z of i, components along k";
-    Uv "UV" 1 [Real] 1
+    Uv "UV" 1 [Vector] 1
         "vector" "unit vector along a vector";
-    Mag "MAG" 1 [Real] 1
+    Mag "MAG" 1 [Vector] 1
         "vector" "magnitude of a vector";
-    Trans "TRANS" 2 [Real, MarkerOrGround] 3
-        "vector, i, j" "components along j of a vector given along i";
+    Trans "TRANS" 2 [Vector, MarkerOrGround] 3
+        "vector, i, j" "components along i of a vector given along j";
     Dxyz "DXYZ" 1 [Marker, MarkerOrGround] 3
         "i, j, k" "displacement vector of i from j along k";
     Vxyz "VXYZ" 1 [Marker, MarkerOrGround] 4

@@ -42,6 +42,8 @@ pub enum Expr {
         /// Right operand.
         right: Box<Self>,
     },
+    /// Three scalars: `[x, y, z]`.
+    Vector(Vec<Self>),
     /// A function call. The number of arguments fits the function; markers, elements and integer
     /// arguments are [`Expr::Number`] with a whole number.
     Call {
@@ -87,11 +89,28 @@ impl Expr {
                 left.visit(visit);
                 right.visit(visit);
             }
-            Self::Call { arguments, .. } => {
+            Self::Call { arguments, .. } | Self::Vector(arguments) => {
                 for argument in arguments {
                     argument.visit(visit);
                 }
             }
+        }
+    }
+
+    /// Whether it gives a vector.
+    #[must_use]
+    pub fn is_vector(&self) -> bool {
+        match self {
+            Self::Number(_) | Self::Time | Self::Mode => false,
+            Self::Negate(operand) => operand.is_vector(),
+            Self::Binary {
+                operator: BinaryOperator::Multiply,
+                left,
+                right,
+            } => left.is_vector() != right.is_vector(),
+            Self::Binary { left, .. } => left.is_vector(),
+            Self::Vector(_) => true,
+            Self::Call { function, .. } => function.gives_vector(),
         }
     }
 }
@@ -109,4 +128,23 @@ pub enum BinaryOperator {
     Divide,
     /// `**`
     Power,
+    /// `%`, the cross product of two vectors.
+    Cross,
+}
+
+impl BinaryOperator {
+    /// Whether it gives a vector of operands that are vectors or not; `None` where it does not take
+    /// such operands.
+    pub(crate) const fn gives_vector(self, left: bool, right: bool) -> Option<bool> {
+        match (self, left, right) {
+            (Self::Add | Self::Subtract, true, true)
+            | (Self::Multiply, true, false)
+            | (Self::Multiply, false, true)
+            | (Self::Divide, true, false)
+            | (Self::Cross, true, true) => Some(true),
+            (Self::Multiply, true, true) => Some(false),
+            (Self::Cross, ..) | (_, true, _) | (_, _, true) => None,
+            (_, false, false) => Some(false),
+        }
+    }
 }

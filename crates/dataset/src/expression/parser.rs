@@ -2,11 +2,13 @@
 //!
 //! ```text
 //! sum     = product { ("+" | "-") product }
-//! product = sign { ("*" | "/") sign }
+//! product = sign { ("*" | "/" | "%") sign }
 //! sign    = ("+" | "-") sign | power
 //! power   = primary [ "**" sign ]
-//! primary = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
+//! primary = number | name | name "(" sum { "," sum } ")" | "(" sum ")" | "[" sum "," sum "," sum "]"
 //! ```
+//!
+//! Operands are scalars or vectors (Adams Solver help, Operators).
 
 use super::{ArgumentKind, BinaryOperator, DEEPEST, Expr, Expression, Function, foreign};
 use crate::diagnostic::{Code, Replacement};
@@ -64,7 +66,7 @@ pub(crate) fn parse(
         brackets: 0,
         is_argument,
     };
-    let (root, _) = parser.sum()?;
+    let Tree { root, .. } = parser.sum()?;
     if let Some(item) = parser.peek() {
         return Err(parser.unexpected(item, "an operator or the end of the expression"));
     }
@@ -84,8 +86,25 @@ struct Parser<'a> {
     is_argument: &'a dyn Fn(&str) -> bool,
 }
 
-/// A tree and its depth.
-type Parsed = Result<(Expr, usize), Problem>;
+/// A tree, its depth, and whether it gives a vector.
+struct Tree {
+    root: Expr,
+    depth: usize,
+    vector: bool,
+}
+
+impl Tree {
+    /// A tree without branches.
+    fn leaf(root: Expr) -> Self {
+        Self {
+            root,
+            depth: 1,
+            vector: false,
+        }
+    }
+}
+
+type Parsed = Result<Tree, Problem>;
 
 impl Parser<'_> {
     /// The items of the expression so far: all but the commas that continue lines.
@@ -215,7 +234,7 @@ impl Parser<'_> {
             matches!(
                 item.kind(),
                 TokenKind::Number | TokenKind::Word | TokenKind::RightParenthesis
-            )
+            ) || self.slice(*item) == "]"
         })
     }
 
@@ -297,25 +316,46 @@ impl Parser<'_> {
         problem
     }
 
-    fn binary(&self, item: Item, left: (Expr, usize), right: (Expr, usize)) -> Parsed {
+    fn binary(&self, item: Item, left: Tree, right: Tree) -> Parsed {
         let operator = match item.kind() {
             TokenKind::Plus => BinaryOperator::Add,
             TokenKind::Minus => BinaryOperator::Subtract,
             TokenKind::Star => BinaryOperator::Multiply,
             TokenKind::Slash => BinaryOperator::Divide,
-            _ => BinaryOperator::Power,
+            TokenKind::Power => BinaryOperator::Power,
+            _ => BinaryOperator::Cross,
         };
-        let depth = left.1.max(right.1) + 1;
+        let depth = left.depth.max(right.depth) + 1;
         if depth > DEEPEST {
             let message = format!("an expression of more than {DEEPEST} operations in a row");
             return Err(self.too_deep(item.span(), message));
         }
+        let vector = operator.gives_vector(left.vector, right.vector);
+        let vector = vector.ok_or_else(|| self.no_such_operation(item, &left, &right))?;
         let root = Expr::Binary {
             operator,
-            left: Box::new(left.0),
-            right: Box::new(right.0),
+            left: Box::new(left.root),
+            right: Box::new(right.root),
         };
-        Ok((root, depth))
+        Ok(Tree {
+            root,
+            depth,
+            vector,
+        })
+    }
+
+    /// Reports operands that an operator does not take.
+    fn no_such_operation(&self, item: Item, left: &Tree, right: &Tree) -> Problem {
+        let name = |tree: &Tree| if tree.vector { "a vector" } else { "a number" };
+        let sign = self.source.excerpt(item.span());
+        let message = format!("`{sign}` does not join {} and {}", name(left), name(right));
+        let mut problem = self.problem(Code::Expression, item.span(), message);
+        problem.help = Some(
+            "vectors are added to vectors, multiplied with numbers and by `*` (inner product) or \
+             `%` (cross product) with vectors, and divided by numbers"
+                .to_string(),
+        );
+        problem
     }
 
     fn sum(&mut self) -> Parsed {
@@ -334,7 +374,8 @@ impl Parser<'_> {
     fn product(&mut self) -> Parsed {
         let mut left = self.sign()?;
         while let Some(item) = self.peek() {
-            if !matches!(item.kind(), TokenKind::Star | TokenKind::Slash) {
+            let is_sign = matches!(item.kind(), TokenKind::Star | TokenKind::Slash);
+            if !(is_sign || self.slice(item) == "%") {
                 break;
             }
             self.take();
@@ -353,16 +394,20 @@ impl Parser<'_> {
         }
         self.enter(item)?;
         self.take();
-        let (operand, depth) = self.sign()?;
+        let operand = self.sign()?;
         self.nesting -= 1;
         if item.kind() == TokenKind::Plus {
-            return Ok((operand, depth));
+            return Ok(operand);
         }
-        if depth >= DEEPEST {
+        if operand.depth >= DEEPEST {
             let message = format!("an expression of more than {DEEPEST} operations in a row");
             return Err(self.too_deep(item.span(), message));
         }
-        Ok((Expr::Negate(Box::new(operand)), depth + 1))
+        Ok(Tree {
+            root: Expr::Negate(Box::new(operand.root)),
+            depth: operand.depth + 1,
+            ..operand
+        })
     }
 
     fn power(&mut self) -> Parsed {
@@ -392,7 +437,7 @@ impl Parser<'_> {
                     return Err(self.problem(Code::OutOfRange, item.span(), message));
                 }
                 self.take();
-                Ok((Expr::Number(value), 1))
+                Ok(Tree::leaf(Expr::Number(value)))
             }
             TokenKind::Word => self.name(item),
             TokenKind::LeftParenthesis => {
@@ -404,8 +449,44 @@ impl Parser<'_> {
                 self.nesting -= 1;
                 Ok(inner)
             }
+            _ if self.slice(item) == "[" => self.vector(item),
             _ => Err(self.unexpected(item, "a number, a name or `(`")),
         }
+    }
+
+    /// Three numbers in square brackets.
+    fn vector(&mut self, open: Item) -> Parsed {
+        self.enter(open)?;
+        self.take();
+        self.brackets += 1;
+        let mut components = Vec::with_capacity(3);
+        let mut depth = 0;
+        for place in 0..3 {
+            let component = self.sum()?;
+            let end = if place < 2 { "," } else { "]" };
+            match self.peek() {
+                Some(item) if component.vector => {
+                    let message = "a vector has numbers for components".to_string();
+                    return Err(self.problem(Code::Expression, item.span(), message));
+                }
+                Some(item) if self.slice(item) == end => self.take(),
+                Some(item) => return Err(self.unexpected(item, &format!("an operator or `{end}`"))),
+                None => return Err(self.unexpected_end(&format!("`{end}`"))),
+            }
+            depth = depth.max(component.depth);
+            components.push(component.root);
+        }
+        self.brackets -= 1;
+        self.nesting -= 1;
+        if depth >= DEEPEST {
+            let message = format!("an expression of more than {DEEPEST} operations in a row");
+            return Err(self.too_deep(open.span(), message));
+        }
+        Ok(Tree {
+            root: Expr::Vector(components),
+            depth: depth + 1,
+            vector: true,
+        })
     }
 
     /// Takes the bracket that closes the one at `open`.
@@ -450,7 +531,7 @@ impl Parser<'_> {
         } else {
             return Err(self.unknown(item, name));
         };
-        Ok((root, 1))
+        Ok(Tree::leaf(root))
     }
 
     fn unknown(&self, item: Item, name: &str) -> Problem {
@@ -507,11 +588,11 @@ impl Parser<'_> {
                 break;
             }
             let first = self.at;
-            let (argument, depth) = self.sum()?;
+            let argument = self.sum()?;
             let place = self.span_from(first).unwrap_or(open.span());
             self.check_argument(function, arguments.len(), &argument, place)?;
-            arguments.push(argument);
-            deepest = deepest.max(depth);
+            arguments.push(argument.root);
+            deepest = deepest.max(argument.depth);
             let separator = match (function, arguments.len()) {
                 (Function::If, 1) => TokenKind::Colon,
                 _ => TokenKind::Comma,
@@ -562,7 +643,11 @@ impl Parser<'_> {
             arguments,
             span,
         };
-        Ok((root, deepest + 1))
+        Ok(Tree {
+            root,
+            depth: deepest + 1,
+            vector: function.gives_vector(),
+        })
     }
 
     /// A transition or the onset of a damping takes place over a width, where numbers give it.
@@ -612,11 +697,14 @@ impl Parser<'_> {
         &self,
         function: Function,
         position: usize,
-        argument: &Expr,
+        argument: &Tree,
         span: Span,
     ) -> Result<(), Problem> {
-        let expected = match (function.argument_kind(position), argument.as_id()) {
-            (ArgumentKind::Real, _) => return Ok(()),
+        let expected = match (function.argument_kind(position), argument.root.as_id()) {
+            (ArgumentKind::Real, _) if !argument.vector => return Ok(()),
+            (ArgumentKind::Vector, _) if argument.vector => return Ok(()),
+            (ArgumentKind::Real, _) => "a number, not a vector",
+            (ArgumentKind::Vector, _) => "a vector",
             (ArgumentKind::Integer, Some(_))
             | (ArgumentKind::Order, Some(..=2))
             | (ArgumentKind::Coordinate, Some(1..=3)) => return Ok(()),

@@ -18,4 +18,6 @@ pub struct VectorForce {
     /// FX, FY, FZ, TX, TY and TZ: functions; `None` is zero. VFORCE has no torques and VTORQUE no
     /// forces.
     pub components: [Option<Expression>; 6],
+    /// FXYZ and TXYZ: three components at once, which are then absent above.
+    pub vectors: [Option<Expression>; 2],
 }

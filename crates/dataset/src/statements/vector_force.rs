@@ -8,7 +8,6 @@ use crate::model::VectorForce;
 use crate::reading::Reading;
 
 const SUBROUTINE: &str = "subroutines are not called; write its components";
-const VECTOR: &str = "expressions have no vectors; write its components";
 
 const I: Keyword = keyword("I", Kind::Id);
 const JFLOAT: Keyword = abbreviated("JFLOAT", "J", Kind::Id);
@@ -19,8 +18,8 @@ const FZ: Keyword = keyword("FZ", Kind::Expression);
 const TX: Keyword = keyword("TX", Kind::Expression);
 const TY: Keyword = keyword("TY", Kind::Expression);
 const TZ: Keyword = keyword("TZ", Kind::Expression);
-const FXYZ: Keyword = keyword("FXYZ", Kind::Unsupported(VECTOR));
-const TXYZ: Keyword = keyword("TXYZ", Kind::Unsupported(VECTOR));
+const FXYZ: Keyword = keyword("FXYZ", Kind::Expression);
+const TXYZ: Keyword = keyword("TXYZ", Kind::Expression);
 const FUNCTION: Keyword = abbreviated("FUNCTION", "FU", Kind::Unsupported(SUBROUTINE));
 const ROUTINE: Keyword = keyword("ROUTINE", Kind::Unsupported(SUBROUTINE));
 
@@ -77,11 +76,14 @@ fn vector_force(reading: &mut Reading, builder: &mut Builder, names: &str) -> Ve
             .error(Code::MissingArgument, span, message)
             .help(format!("add {names}; one that is left out is zero"));
     }
+    reading.exclude("FXYZ", &["FX", "FY", "FZ"]);
+    reading.exclude("TXYZ", &["TX", "TY", "TZ"]);
     VectorForce {
         header: reading.header(),
         i: builder.require(reading, "I", Target::Marker),
         j_float: builder.require(reading, "JFLOAT", Target::FloatingMarker),
         rm: builder.require(reading, "RM", Target::Marker),
         components: components(reading),
+        vectors: ["FXYZ", "TXYZ"].map(|keyword| reading.vector_expression(keyword)),
     }
 }

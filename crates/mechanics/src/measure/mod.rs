@@ -35,6 +35,8 @@ pub enum Quantity {
     IncludedAngle,
     /// ORIENT type 27: Euler parameter 0 to 3 of i in j.
     EulerParameter(usize),
+    /// Cosine between axis a of i and axis b of j, for UVX, UVY, UVZ and TRANS.
+    DirectionCosine(usize, usize),
     /// VX, VY, VZ: component along k of the rate of `d` seen from l.
     Velocity(usize),
     /// VM: its magnitude.
@@ -78,7 +80,8 @@ impl Quantity {
             | Self::BodyFixed(..)
             | Self::YawPitchRoll(_)
             | Self::IncludedAngle
-            | Self::EulerParameter(_) => Order::Displacement,
+            | Self::EulerParameter(_)
+            | Self::DirectionCosine(..) => Order::Displacement,
             Self::Velocity(_)
             | Self::Speed
             | Self::SeparationRate
@@ -139,6 +142,7 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
             d.cross(&e).norm().atan2(d.dot(&e))
         }
         Quantity::EulerParameter(n) => euler_parameter(n, &c),
+        Quantity::DirectionCosine(a, b) => c(a, b),
         Quantity::Velocity(axis) => seen().dot(&k.axes[axis]),
         Quantity::Speed => seen().norm(),
         Quantity::SeparationRate => {
@@ -209,6 +213,8 @@ mod tests {
         Quantity::IncludedAngle,
         Quantity::EulerParameter(0),
         Quantity::EulerParameter(3),
+        Quantity::DirectionCosine(0, 2),
+        Quantity::DirectionCosine(1, 1),
         Quantity::Velocity(1),
         Quantity::Speed,
         Quantity::SeparationRate,

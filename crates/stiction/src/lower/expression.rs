@@ -71,6 +71,24 @@ impl Compiler {
         self.expr(lowering, &expression.root)
     }
 
+    /// The same of an expression that gives a vector.
+    pub(super) fn add_vector(
+        &mut self,
+        lowering: &mut Lowering,
+        owner: &str,
+        expression: &Expression,
+    ) -> Result<[Register; 3], Refused> {
+        owner.clone_into(&mut self.owner);
+        self.add_variables(lowering, &expression.root)?;
+        self.span = expression.span;
+        self.vector(lowering, &expression.root)
+    }
+
+    /// What its functions may read.
+    pub(super) fn reads(&self) -> Reads {
+        self.reads
+    }
+
     /// The program whose value is that of a register.
     pub(super) fn finish(self, value: Register) -> Program {
         let mut program = self.program;
@@ -155,6 +173,14 @@ impl Compiler {
                 self.program.push(Operation::Unary(Unary::Negate, operand))
             }
             Expr::Binary {
+                operator: BinaryOperator::Multiply,
+                left,
+                right,
+            } if left.is_vector() => {
+                let (a, b) = (self.vector(lowering, left)?, self.vector(lowering, right)?);
+                self.inner(a, b)
+            }
+            Expr::Binary {
                 operator,
                 left,
                 right,
@@ -167,10 +193,13 @@ impl Compiler {
                     BinaryOperator::Multiply => Binary::Multiply,
                     BinaryOperator::Divide => Binary::Divide,
                     BinaryOperator::Power => Binary::Power,
+                    // The parser has told numbers from vectors.
+                    BinaryOperator::Cross => return Err(Refused),
                 };
                 self.program.push(Operation::Binary(operator, left, right))
             }
             Expr::Call { .. } => self.call(lowering, expr)?,
+            Expr::Vector(_) => return Err(Refused),
         })
     }
 
@@ -237,6 +266,10 @@ impl Compiler {
         match function {
             Function::Akispl | Function::Cubspl => {
                 return self.interpolation(lowering, function, arguments);
+            }
+            Function::Mag => {
+                let vector = self.vector(lowering, &arguments[0])?;
+                return Ok(composite::magnitude(&mut self.program, vector));
             }
             Function::Curve => return self.curve_coordinate(lowering, arguments),
             Function::Invpsd => return self.power_density(lowering, arguments, *span),
@@ -392,7 +425,7 @@ impl Compiler {
     }
 
     /// Reports a function that this element may not read.
-    fn refuse_order(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
+    pub(super) fn refuse_order(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
         let Expr::Call { function, span, .. } = call else {
             return Refused;
         };
@@ -412,7 +445,7 @@ impl Compiler {
 
     /// Reports a function that is not simulated: once, where it stands, with all elements whose
     /// functions hold it.
-    fn refuse_function(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
+    pub(super) fn refuse_function(&self, lowering: &mut Lowering, call: &Expr) -> Refused {
         let Expr::Call { function, span, .. } = call else {
             return Refused;
         };
@@ -439,7 +472,7 @@ impl Compiler {
         self.program.push(Operation::Unary(function, value))
     }
 
-    fn binary(&mut self, function: Binary, a: Register, b: Register) -> Register {
+    pub(super) fn binary(&mut self, function: Binary, a: Register, b: Register) -> Register {
         self.program.push(Operation::Binary(function, a, b))
     }
 
@@ -513,14 +546,6 @@ const fn refusal(function: Function) -> (&'static str, &'static str) {
         F::Contact | F::Cvcv | F::Nforce => (
             "reads a force of an element that is not simulated",
             "take the element and what reads it out of the model",
-        ),
-        F::Dxyz | F::Vxyz | F::Wxyz | F::Accxyz | F::Fxyz | F::Txyz => (
-            "gives a vector, which is not computed with",
-            "read its components: DX, DY and DZ for DXYZ, and so on",
-        ),
-        F::Uvx | F::Uvy | F::Uvz | F::Uv | F::Mag | F::Trans => (
-            "computes with vectors, which is not done",
-            "write components: DX(i, j, k) is DXYZ(i, j)*UVX(k), DM(i, j) is MAG(DXYZ(i, j))",
         ),
         _ => (
             "cannot be computed from these arguments",

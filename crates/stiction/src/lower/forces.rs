@@ -188,9 +188,11 @@ impl Lowering<'_> {
     ) {
         let ends = [force.i, force.j_float, force.rm].map(|id| self.marker_place(id));
         for component in components {
-            let function = match &force.components[component] {
-                Some(function) => self.function(force, statement, Reads::Solution, function),
-                None => Some(Program::constant(0.0)),
+            let given = (&force.components[component], &force.vectors[component / 3]);
+            let function = match given {
+                (Some(function), _) => self.function(force, statement, Reads::Solution, function),
+                (None, Some(vector)) => self.component_of(force, statement, vector, component % 3),
+                (None, None) => Some(Program::constant(0.0)),
             };
             let Some(function) = function else { continue };
             let label = label(statement, &force.header);

@@ -109,6 +109,7 @@ enum Check {
 }
 use Check::{Formula as F, Refused, Test};
 
+const COMPONENTS: &str = "tests/stiction/functions.rs: vectors_are_their_components";
 const FORCES: &str = "tests/stiction/functions.rs: element_forces_balance_the_motion";
 
 /// One row for each function, in the order of the table of functions.
@@ -183,18 +184,71 @@ fn checks() -> Vec<(Function, Check)> {
         (N::Ty, Test("TY(60,1,11)", FORCES)),
         (N::Tz, Test("TZ(60,1,11)", FORCES)),
         (N::Tm, Test("TM(60,1)", FORCES)),
-        (N::Uvx, Refused("UVX(21,31)")),
-        (N::Uvy, Refused("UVY(21,31)")),
-        (N::Uvz, Refused("UVZ(21,31)")),
-        (N::Uv, Refused("UV(DXYZ(21,31))")),
-        (N::Mag, Refused("MAG(DXYZ(21,31))")),
-        (N::Trans, Refused("TRANS(DXYZ(21,31),41)")),
-        (N::Dxyz, Refused("DXYZ(21,31)")),
-        (N::Vxyz, Refused("VXYZ(21,31)")),
-        (N::Wxyz, Refused("WXYZ(21,31)")),
-        (N::Accxyz, Refused("ACCXYZ(21,31)")),
-        (N::Fxyz, Refused("FXYZ(21,31)")),
-        (N::Txyz, Refused("TXYZ(21,31)")),
+        (
+            N::Uvx,
+            F("UVX(21,31)*[1,2,3]", |w| {
+                w.r().column(0).dot(&Vector3::new(1.0, 2.0, 3.0))
+            }),
+        ),
+        (
+            N::Uvy,
+            F("UVY(21,31)%[1,2,3]*UVX(41)", |w| {
+                let own = w.r().column(1).cross(&Vector3::new(1.0, 2.0, 3.0));
+                own.dot(&w.k.axis(0))
+            }),
+        ),
+        (
+            N::Uvz,
+            F("UVZ(21)/2*(UVX(31)+[0,1,0])", |w| {
+                w.i.axis(2).dot(&(w.j.axis(0) + Vector3::y())) / 2.0
+            }),
+        ),
+        (
+            N::Uv,
+            F("UV(DXYZ(21,31))*VXYZ(21,31)", |w| {
+                let v = w.i.velocity - w.j.velocity;
+                v.dot(&w.d()) / w.d().norm()
+            }),
+        ),
+        (
+            N::Mag,
+            F("MAG(DXYZ(21,31)-2*[{x},1,{y}])", |w| {
+                (w.d() - 2.0 * Vector3::new(w.x, 1.0, w.y)).norm()
+            }),
+        ),
+        (
+            N::Trans,
+            F("TRANS([1,{x},2],41,31)*[1,2,-1]", |w| {
+                let v = w.j.axes * Vector3::new(1.0, w.x, 2.0);
+                let v = w.k.axes.transpose() * v;
+                v.x + 2.0 * v.y - v.z
+            }),
+        ),
+        (
+            N::Dxyz,
+            F("DXYZ(21,31,41)*[1,-1,2]", |w| {
+                let d = w.k.axes.transpose() * w.d();
+                d.x - d.y + 2.0 * d.z
+            }),
+        ),
+        (
+            N::Vxyz,
+            F("VXYZ(21,31,41,11)*(-[1,-1,2])", |w| {
+                let v = w.k.axes.transpose() * w.v();
+                -v.x + v.y - 2.0 * v.z
+            }),
+        ),
+        (
+            N::Wxyz,
+            F("WXYZ(21,31,41)%[1,2,3]*[2,0,1]", |w| {
+                let omega = w.k.axes.transpose() * w.w();
+                let cross = omega.cross(&Vector3::new(1.0, 2.0, 3.0));
+                2.0 * cross.x + cross.z
+            }),
+        ),
+        (N::Accxyz, Test("ACCXYZ(21,31,41,31)*[1,0,0]", COMPONENTS)),
+        (N::Fxyz, Test("FXYZ(60,1,11)*[1,0,0]", COMPONENTS)),
+        (N::Txyz, Test("TXYZ(60,1,11)*[1,0,0]", COMPONENTS)),
         (N::Joint, Test("JOINT(1,0,2,11)", FORCES)),
         (N::Jprim, Test("JPRIM(1,0,2,11)", FORCES)),
         (N::Motion, Test("MOTION(1,0,8,11)", FORCES)),
@@ -686,7 +740,11 @@ fn the_table_of_functions_is_up_to_date() {
         .unwrap();
     }
     table += "\nTIME, MODE (4 dynamics, 5 statics, 6 quasi-statics), PI, DTOR (pi/180) and RTOD \
-              (180/pi) are written\nwithout brackets; `30D` is 30 degrees.\n";
+              (180/pi) are written\nwithout brackets; `30D` is 30 degrees.\n\n\
+              Vectors are `[x, y, z]` and what UVX to TXYZ but MAG give. With `v` a vector and `s` a \
+              number: `v+v`, `v-v`,\n`-v`, `s*v`, `v*s` and `v/s` are vectors, `v*v` is the inner and \
+              `v%v` the cross product. FXYZ and TXYZ of\nVFORCE, VTORQUE and GFORCE take a vector, every \
+              other argument a number.\n";
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/functions.md");
     if std::env::var_os("STICTION_UPDATE_CASES").is_some() {
         std::fs::write(&path, &table).unwrap();

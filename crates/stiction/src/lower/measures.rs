@@ -138,6 +138,17 @@ impl Measures {
         }
     }
 
+    /// Place of the cosine between axis `a` of marker `i` and axis `b` of marker `j`.
+    pub(super) fn direction_cosine(
+        &mut self,
+        [a, b]: [usize; 2],
+        i: usize,
+        j: usize,
+        ground: usize,
+    ) -> usize {
+        self.place(Quantity::DirectionCosine(a, b), [i, j, ground, ground])
+    }
+
     fn place(&mut self, quantity: Quantity, [i, j, k, l]: [usize; 4]) -> usize {
         let measure = Measure {
             quantity,

@@ -28,6 +28,7 @@ mod power_density;
 mod results;
 mod tables;
 mod unknowns;
+mod vectors;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 

@@ -66,9 +66,9 @@ SIMULATE/DYNAMIC, END=99, STEPS=4
 fn what_a_command_asks_for_wrongly_is_known_before_the_run() {
     let cases = [
         (
-            "VARIABLE/1, FUNCTION=UVX(20)",
+            "VARIABLE/1, FUNCTION=DELAY(TIME, 1, 0)",
             "before:3:1: error",
-            "vectors",
+            "the past",
         ),
         ("VARIABLE/7, FUNCTION=1", "before:3:1: error", "VARIABLE/7"),
         (

@@ -180,3 +180,158 @@ fn element_forces_balance_the_motion() {
         }
     }
 }
+
+/// Vectors of accelerations and forces against the functions of their components, and vector forces
+/// given at once against the same by components.
+#[test]
+fn vectors_are_their_components() {
+    let model = |first: &str, second: &str| {
+        format!(
+            "A body on a spring, pushed and turned
+UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/3, PART=1, QP=0.2, 0.1, 2, REULER=0.3, 0.2, 0.1
+MARKER/9, PART=1, FLOATING
+MARKER/8, PART=1, FLOATING
+PART/2, MASS=2, CM=20, IP=1, 2, 2.5, VX=0.4, WY=1.5
+MARKER/20, PART=2
+MARKER/21, PART=2, QP=0.5, 0.1, 0, REULER=0.2, 0.4, 0
+BUSHING/1, I=21, J=1, K=30, 40, 50, KT=2, 3, 4, C=1, 1, 1, CT=0.1, 0.2, 0.3
+VFORCE/1, I=21, JFLOAT=9, RM=3{first}
+GFORCE/1, I=20, JFLOAT=8, RM=21{second}
+REQUEST/1, F1=MAG(ACCXYZ(21,3,20))\\F2=ACCX(21,3,20)\\F3=ACCY(21,3,20)\\F4=ACCZ(21,3,20)
+REQUEST/2, F1=MAG(FXYZ(21,1,3))\\F2=FX(21,1,3)\\F3=FY(21,1,3)\\F4=FZ(21,1,3)
+, F5=MAG(TXYZ(21,1,3))\\F6=TX(21,1,3)\\F7=TY(21,1,3)\\F8=TZ(21,1,3)
+REQUEST/3, F2=ACCXYZ(21,3,20)*[1,0,0]\\F3=ACCXYZ(21,3,20)*[0,1,0]\\F4=FXYZ(21,1,3)*[0,0,1]
+, F6=TXYZ(21,1,3)*[1,0,0]\\F7=TXYZ(21,1,3)*[0,1,0]
+INTEGRATOR/GSTIFF, SI2, ERROR=1E-7
+END
+"
+        )
+    };
+    let vectors = model(
+        ", FXYZ=-2*TRANS(VXYZ(21,1),3)+[3*TIME,0,\n, DX(21,1)]",
+        ", FXYZ=0.1*WXYZ(20,1,21)%[1,2,3]\\ TXYZ=[0,0,1]*DM(21,1)",
+    );
+    let components = model(
+        ", FX=-2*VX(21,1,3)+3*TIME\\FY=-2*VY(21,1,3)\\FZ=-2*VZ(21,1,3)+DX(21,1)",
+        ", FX=0.1*(WY(20,1,21)*3-WZ(20,1,21)*2)\\FY=0.1*(WZ(20,1,21)-WX(20,1,21)*3)\
+         \\FZ=0.1*(WX(20,1,21)*2-WY(20,1,21))\\TZ=DM(21,1)",
+    );
+    let (vectors, components) = (
+        run_text(&vectors, 0.5, 5, None),
+        run_text(&components, 0.5, 5, None),
+    );
+    let get = |name: &str| vectors.get(name).unwrap();
+    for name in ["PART_2_XFORM.X", "PART_2_XFORM.Z", "PART_2_XFORM.WX"] {
+        let pairs = get(name).into_iter().zip(components.get(name).unwrap());
+        for (a, b) in pairs {
+            // Rounding in other orders, along the motion.
+            assert!((a - b).abs() < 1e-9, "{name}: {a} {b}");
+        }
+    }
+    let close = |a: Vec<f64>, b: Vec<f64>, name: &str| {
+        assert!(a.iter().any(|value| value.abs() > 1e-3), "{name}");
+        for (a, b) in a.into_iter().zip(b) {
+            assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{name}: {a} {b}");
+        }
+    };
+    for (magnitude, parts) in [
+        (
+            "REQUEST_1.F1",
+            ["REQUEST_1.F2", "REQUEST_1.F3", "REQUEST_1.F4"],
+        ),
+        (
+            "REQUEST_2.F1",
+            ["REQUEST_2.F2", "REQUEST_2.F3", "REQUEST_2.F4"],
+        ),
+        (
+            "REQUEST_2.F5",
+            ["REQUEST_2.F6", "REQUEST_2.F7", "REQUEST_2.F8"],
+        ),
+    ] {
+        let [x, y, z] = parts.map(get);
+        let norm = (0..x.len()).map(|k| x[k].hypot(y[k]).hypot(z[k]));
+        close(get(magnitude), norm.collect(), magnitude);
+    }
+    for (inner, component) in [
+        ("REQUEST_3.F2", "REQUEST_1.F2"),
+        ("REQUEST_3.F3", "REQUEST_1.F3"),
+        ("REQUEST_3.F4", "REQUEST_2.F4"),
+        ("REQUEST_3.F6", "REQUEST_2.F6"),
+        ("REQUEST_3.F7", "REQUEST_2.F7"),
+    ] {
+        close(get(inner), get(component), inner);
+    }
+}
+
+#[test]
+fn vectors_and_numbers_are_told_apart() {
+    let model = "vectors
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/9, PART=1, FLOATING
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+";
+    for (statement, words) in [
+        (
+            "VARIABLE/1, FUNCTION=DXYZ(20,1)",
+            "FUNCTION takes a number, not a vector",
+        ),
+        (
+            "VFORCE/1, I=20, JFLOAT=9, RM=1, FXYZ=DX(20,1)",
+            "FXYZ takes a vector",
+        ),
+        ("VFORCE/1, I=20, JFLOAT=9, RM=1, FXYZ=[1,2,3], FX=1", "FX"),
+        (
+            "VARIABLE/1, FUNCTION=DXYZ(20,1)+1",
+            "`+` does not join a vector and a number",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=1/DXYZ(20,1)",
+            "`/` does not join a number and a vector",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=MAG(DXYZ(20,1)**2)",
+            "`**` does not join",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=2%3",
+            "`%` does not join a number and a number",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=MAG(DX(20,1))",
+            "argument 1 of MAG is a vector",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=SIN([1,2,3])",
+            "argument 1 of SIN is a number, not a vector",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=MAG([1,2])",
+            "expected an operator or `,`, found `]`",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=MAG([1,2,3,4])",
+            "expected an operator or `]`",
+        ),
+        (
+            "VARIABLE/1, FUNCTION=MAG([1,2,[1,2,3]])",
+            "numbers for components",
+        ),
+        ("VARIABLE/1, FUNCTION=[1,2", "`,` is missing"),
+        (
+            "MOTION/1, JOINT=1, FUNCTION=MAG(UVX(20))",
+            "it may read TIME only",
+        ),
+    ] {
+        let text = crate::shared::refusal(&format!(
+            "{model}JOINT/1, REVOLUTE, I=20, J=1\n{statement}\nEND\n"
+        ));
+        assert!(text.contains(words), "{statement}: {text}");
+        assert!(text.contains("model.adm:8:"), "{statement}: {text}");
+    }
+}
