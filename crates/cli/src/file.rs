@@ -39,8 +39,10 @@ pub(crate) fn extension(path: &Path) -> String {
 /// Reads a file: its bytes and its text.
 pub(crate) fn read(path: &Path) -> Result<(Vec<u8>, Source), Refusal> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path)
-        .map_err(|error| Refusal::usage(&format!("{name} cannot be read: {error}")))?;
+    let bytes = std::fs::read(path).map_err(|error| Refusal {
+        text: format!("error: {name} cannot be read: {error}\n"),
+        exit: Exit::Input,
+    })?;
     let source = Source::from_bytes(&name, &bytes)
         .map_err(|error| Refusal::input(&[*error], &Source::from_text(&name, String::new())))?;
     Ok((bytes, source))

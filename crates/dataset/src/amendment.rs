@@ -55,10 +55,7 @@ const FIXED: &[(&str, &[&str])] = &[
         &["CM", "QG", "REULER", "XG", "ZG", "VX", "VY", "VZ", "EXACT"],
     ),
     ("SENSOR", &[]),
-    (
-        "SFORCE",
-        &["TRANSLATIONAL", "ROTATIONAL", "I", "J", "ACTIONONLY"],
-    ),
+    ("SFORCE", &["TRANSLATIONAL", "ROTATIONAL", "ACTIONONLY"]),
     ("SPLINE", &["FILE"]),
     ("SPRINGDAMPER", &["I", "J", "TRANSLATIONAL", "ROTATIONAL"]),
     ("VARIABLE", &[]),

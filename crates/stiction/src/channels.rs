@@ -236,7 +236,7 @@ impl Channels {
 }
 
 /// Registers of the program of the outputs.
-fn evaluate(outputs: &Outputs, wrenches: &Wrenches<'_>) -> Vec<f64> {
+pub(crate) fn evaluate(outputs: &Outputs, wrenches: &Wrenches<'_>) -> Vec<f64> {
     let snapshot = wrenches.snapshot();
     let program = &outputs.program;
     let mut registers = vec![0.0; program.len()];
@@ -305,7 +305,7 @@ fn requests(
     heads
 }
 
-fn unit(unit: &Unit, units: &UnitNames) -> String {
+pub(crate) fn unit(unit: &Unit, units: &UnitNames) -> String {
     match unit {
         Unit::Given(name) => name.clone(),
         Unit::Length => units.length.clone(),

@@ -70,12 +70,21 @@ impl std::fmt::Display for ModeReport {
                 (place + 1).to_string(),
                 mode.moves.clone().unwrap_or_default(),
                 format!("{:.6e}", mode.frequency()),
-                format!("{:.4}", mode.damping_ratio()),
-                format!("{:.6e}", mode.value[0]),
+                without_sign_of_zero(format!("{:.4}", mode.damping_ratio())),
+                // Adding zero makes the zero of an undamped mode a plain one.
+                format!("{:.6e}", mode.value[0] + 0.0),
                 format!("{:.6e}", mode.value[1]),
             ]
         });
         f.write_str(&text_table(heads, 2, rows))
+    }
+}
+
+/// A number as it is written, but a zero without a sign.
+fn without_sign_of_zero(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(zero) if zero.parse() == Ok(0.0) => zero.to_owned(),
+        _ => text,
     }
 }
 

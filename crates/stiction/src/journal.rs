@@ -98,7 +98,12 @@ impl<'p, W: Write> Journal<'p, W> {
         let project = self.project;
         let (dataset, source) = (project.dataset(), project.model_source());
         let about = about(dataset, source, severity, code, element, text);
-        match project.levels.judge(Message::new(about, source)) {
+        self.judged(Message::new(about, source))
+    }
+
+    /// A message that the run gives reason for, where it is to be told.
+    pub(crate) fn judged(&mut self, message: Message) -> Result<(), OutputError> {
+        match self.project.levels.judge(message) {
             Some(message) => self.tell(message),
             None => Ok(()),
         }

@@ -17,7 +17,7 @@
 //! | SAVE and RELOAD | `saving.rs`, their file `saved_system.rs` |
 //! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs` |
 //! | events | `sensors.rs` |
-//! | message file | `journal.rs`, LIST in `listing.rs` |
+//! | message file | `journal.rs`, LIST in `listing.rs`, INFO and TIME in `info.rs` |
 //! | our own channels of a friction | `friction_detail.rs` |
 //! | table of friction, energy balance | `report.rs`, `balance.rs`, `text_table.rs` |
 //! | where friction came from, read back | `explain/` |
@@ -53,6 +53,7 @@ mod eigensolution;
 pub mod explain;
 mod failure;
 mod friction_detail;
+mod info;
 mod journal;
 mod levels;
 mod listing;

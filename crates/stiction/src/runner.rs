@@ -198,6 +198,8 @@ impl<'a> Runner<'a> {
                 CommandKind::Change(change) => self.change(change, step),
                 CommandKind::Simulate(simulate) => self.simulate(simulate, step, watch),
                 CommandKind::Eigensolution(asked) => self.eigensolution(asked),
+                CommandKind::Info(request) => self.info(request, step),
+                CommandKind::Time => self.time(),
                 CommandKind::Save(place) => self.save(place, step),
                 CommandKind::Reload(reload) => {
                     self.reload(reload, step, &project.steps()[place + 1..])
@@ -317,19 +319,29 @@ impl<'a> Runner<'a> {
             (K::InitialConditions, _) => return Ok(()),
             (K::Kinematic | K::Transient, 0) => DataKind::Kinematic,
             (K::Kinematic, _) => {
-                self.log.warning(
-                    Code::NotKinematic,
-                    None,
-                    format!(
-                        "SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"
-                    ),
-                )?;
+                let text = format!(
+                    "SIMULATE/KINEMATIC with {freedoms} degrees of freedom goes on as dynamic"
+                );
+                self.warn(step, Code::NotKinematic, text)?;
+                DataKind::Dynamic
+            }
+            (K::Dynamic, 0) if !self.session.project.is_dataset_alone() => {
+                let text = "SIMULATE/DYNAMIC of a model without degrees of freedom is integrated; \
+                            KINEMATIC or TRANSIENT is faster";
+                self.warn(step, Code::NotKinematic, text.to_owned())?;
                 DataKind::Dynamic
             }
             _ => DataKind::Dynamic,
         };
         let span = span.ok_or_else(|| Halt::refused("SIMULATE needs END or DURATION"))?;
         self.motion(kind, span, watch)
+    }
+
+    /// A warning about a command.
+    fn warn(&mut self, step: &SourcedCommand, code: Code, text: String) -> Result<(), OutputError> {
+        let project = self.session.project;
+        let message = project.about(step, Severity::Warning, code, text, None);
+        self.log.judged(message)
     }
 
     /// Takes over changes of the model and assembles it where it is not.
@@ -404,7 +416,7 @@ impl<'a> Runner<'a> {
 
     /// Solves and records the instant from which a motion starts, where it is not recorded as the
     /// end of another one.
-    fn record_start(&mut self) -> Result<(), Halt> {
+    pub(crate) fn record_start(&mut self) -> Result<(), Halt> {
         if self.instant == Recorded::Motion {
             return Ok(());
         }

@@ -230,7 +230,7 @@ impl Runner<'_> {
     }
 
     /// A command that is not carried out ends the run.
-    fn refuse(&self, step: &SourcedCommand, text: String, help: &str) -> Halt {
+    pub(crate) fn refuse(&self, step: &SourcedCommand, text: String, help: &str) -> Halt {
         let project: &Project = self.session.project;
         let code = dataset::Code::SavedSystem;
         let message = project.about(step, Severity::Error, code, text, Some(help));

@@ -105,13 +105,15 @@ impl<'a> Survey<'a> {
             }
             CommandKind::Eigensolution(asked) => {
                 self.analysis();
-                if let Some((id, _)) = asked.reference
-                    && self.now.dataset.markers.by_id(id).is_none()
-                {
-                    let (code, text) = (Code::MissingElement, format!("there is no MARKER/{id}"));
-                    let error = Severity::Error;
-                    let message = self.project.about(step, error, code, text, None);
-                    self.messages.push(message);
+                if let Some((id, _)) = asked.reference {
+                    self.marker(id, step);
+                }
+            }
+            CommandKind::Info(request) => {
+                self.analysis();
+                let markers = [request.i, request.j, request.rm].into_iter().flatten();
+                for id in markers {
+                    self.marker(id, step);
                 }
             }
             CommandKind::Save(place) => {
@@ -119,9 +121,18 @@ impl<'a> Survey<'a> {
             }
             CommandKind::Reload(reload) => return self.reload(reload, step),
             CommandKind::Stop => return false,
-            CommandKind::Model { .. } | CommandKind::CommandFile { .. } => {}
+            CommandKind::Model { .. } | CommandKind::CommandFile { .. } | CommandKind::Time => {}
         }
         true
+    }
+
+    /// Reports a marker that does not exist.
+    fn marker(&mut self, id: u32, step: &SourcedCommand) {
+        if self.now.dataset.markers.by_id(id).is_none() {
+            let (code, text) = (Code::MissingElement, format!("there is no MARKER/{id}"));
+            let message = self.project.about(step, Severity::Error, code, text, None);
+            self.messages.push(message);
+        }
     }
 
     fn acting(&self) -> Option<Diagnostic> {

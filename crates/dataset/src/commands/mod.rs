@@ -1,5 +1,6 @@
 //! From text to a [`CommandFile`].
 
+mod info;
 mod linear;
 mod states;
 
@@ -255,6 +256,8 @@ const COMMANDS: &[Rule] = &[
         states::RELOAD_KEYWORDS,
         states::reload,
     ),
+    read("INFO", "INF", false, info::KEYWORDS, info::info),
+    read("TIME", "TI", false, &[], |_| Some(CommandKind::Time)),
     read("STOP", "STOP", false, &[], |_| Some(CommandKind::Stop)),
     read(
         "FRICTION",
@@ -311,7 +314,6 @@ const COMMANDS: &[Rule] = &[
     ignored("HELP", ASKS),
     ignored("HOTLINE", ASKS),
     ignored("IC", SOLVERS),
-    ignored("INFO", ASKS),
     ignored("KINEMATICS", SOLVERS),
     ignored("LSOLVER", "stiction has one linear solver"),
     ignored("MENU", ASKS),
@@ -319,7 +321,6 @@ const COMMANDS: &[Rule] = &[
     ignored("REQUEST", REPORTS),
     ignored("RESULTS", REPORTS),
     ignored("SHOW", ASKS),
-    ignored("TIME", ASKS),
     ignored("WSTIFF", INTEGRATOR),
     // What the old Fortran solver drew with (Adams Solver C++, frequent questions).
     ignored("ACENTER", DRAWS),

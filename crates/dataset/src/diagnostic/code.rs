@@ -186,8 +186,8 @@ codes! {
     Integration = "integration", "Look at the element that is named; smooth functions that jump, and give every moving part a mass.";
     /// The friction that a load causes adds more to that load than there was: the joint jams, and no motion obeys Coulomb's law.
     Jam = "jam", "Lower the coefficient, lengthen the guide or move the force nearer to it; a real mechanism jams there, too.";
-    /// SIMULATE/KINEMATIC of a model with degrees of freedom.
-    NotKinematic = "not-kinematic", "Drive every freedom with a MOTION, or write SIMULATE/DYNAMIC.";
+    /// SIMULATE/KINEMATIC of a model with degrees of freedom, or SIMULATE/DYNAMIC of one without.
+    NotKinematic = "not-kinematic", "Drive every freedom with a MOTION, or write SIMULATE/DYNAMIC; without freedoms write SIMULATE/KINEMATIC.";
     /// A state that cannot be saved or reloaded: the file is missing, damaged, or of another model or version.
     SavedSystem = "saved-system", "Name a file that SAVE/SYSTEM has written, with the dataset that it was saved of.";
     /// Equations that were left out as redundant do not hold any more: joints or motions contradict one another.

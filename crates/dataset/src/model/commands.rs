@@ -2,7 +2,7 @@
 
 use super::{
     Activity, Effect, Equilibrium, FrictionInputs, FrictionQuantity, Integrator, OverlapDelta,
-    Preferences,
+    Preferences, Request,
 };
 use crate::source::Span;
 
@@ -43,6 +43,10 @@ pub enum CommandKind {
     Simulate(Simulate),
     /// LINEAR/EIGENSOL.
     Eigensolution(Eigensolution),
+    /// INFO: a request that is answered at once.
+    Info(Box<Request>),
+    /// TIME.
+    Time,
     /// SAVE.
     Save(SavedIn),
     /// RELOAD.

@@ -25,6 +25,7 @@ mod vector_force;
 pub(crate) use friction::KEYWORDS as FRICTION_KEYWORDS;
 pub(crate) use friction::arguments as friction_arguments;
 pub(crate) use motion::name_freedoms;
+pub(crate) use request::STANDARD as STANDARD_REQUESTS;
 pub(crate) use settings::{
     EQUILIBRIUM_KEYWORDS, INTEGRATOR_KEYWORDS, PREFERENCES_KEYWORDS, equilibrium, integrator,
     preferences,

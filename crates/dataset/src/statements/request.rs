@@ -44,8 +44,8 @@ const FUNCTIONS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
 /// A flag and what it asks for.
 type Standard = (&'static str, fn() -> RequestKind);
 
-/// What is reported of two markers, by the flags of REQUEST and MREQUEST.
-pub(super) const STANDARD: [Standard; 4] = [
+/// What is reported of two markers, by the flags of REQUEST, MREQUEST and INFO.
+pub(crate) const STANDARD: [Standard; 4] = [
     ("DISPLACEMENT", || RequestKind::Displacement),
     ("VELOCITY", || RequestKind::Velocity),
     ("ACCELERATION", || RequestKind::Acceleration),

@@ -49,8 +49,13 @@ fn print(expression: &Expr) -> String {
                 BinaryOperator::Multiply => "*",
                 BinaryOperator::Divide => "/",
                 BinaryOperator::Power => "**",
+                BinaryOperator::Cross => "%",
             };
             format!("({}{sign}{})", print(left), print(right))
+        }
+        Expr::Vector(components) => {
+            let components: Vec<String> = components.iter().map(print).collect();
+            format!("[{}]", components.join(","))
         }
         Expr::Call {
             function,
@@ -78,6 +83,10 @@ fn expressions_have_the_precedence_of_fortran() {
         ("(1+2)*3", "((1+2)*3)"),
         (".5 + 1. + 1E3 + 1.5e-3", "(((0.5+1)+1000)+0.0015)"),
         ("time*2", "(t*2)"),
+        (
+            "DXYZ(1)%[1,2*time, 3]*-UVX(2) + 2",
+            "(((DXYZ(1)%[1,(2*t),3])*(-UVX(2)))+2)",
+        ),
         ("IF(MODE-5: 1, 0, 2)", "IF((mode-5),1,0,2)"),
         (
             "if(time-1: 0, if(time-2: 1,2,3), 4)",

@@ -196,7 +196,7 @@ mod tests {
     use super::*;
     use crate::rotation::Quaternion;
 
-    const ALL: [Quantity; 21] = [
+    const ALL: [Quantity; 23] = [
         Quantity::Displacement(0),
         Quantity::Displacement(2),
         Quantity::Distance,

@@ -122,8 +122,8 @@ impl Simulation {
         solved.map_err(|failure| self.unsolved(&failure, &instant))
     }
 
-    /// Replaces element parameters, functions and what is active; bodies, markers and joints must be
-    /// the same. Where other constraints are active than before, the model is assembled again from
+    /// Replaces element parameters, functions, the markers of forces and what is active; bodies,
+    /// markers and joints must be the same. Where other constraints are active than before, the model is assembled again from
     /// where it stands.
     ///
     /// # Errors

@@ -291,7 +291,15 @@ impl System {
                 .flat_map(|function| function.inputs())
                 .collect()
         };
-        let same_pattern = inputs(&fresh.model) == inputs(&self.model);
+        let ends = |model: &Model| -> Vec<[usize; 2]> {
+            model
+                .forces
+                .iter()
+                .map(|force| [force.i, force.j])
+                .collect()
+        };
+        let same_pattern =
+            inputs(&fresh.model) == inputs(&self.model) && ends(&fresh.model) == ends(&self.model);
         let same = fresh.constraints.len() == self.constraints.len()
             && fresh.bodies.len() == self.bodies.len()
             && fresh.model.measures.len() == self.model.measures.len()

@@ -222,6 +222,10 @@ fn without_freedoms_a_simulation_is_kinematic() {
         log.contains("with 1 degrees of freedom goes on as dynamic"),
         "{log}"
     );
+    let told = report.messages.iter();
+    let told = told.filter(|message| message.diagnostic.code == dataset::Code::NotKinematic);
+    let lines: Vec<usize> = told.map(|message| message.location.start.line).collect();
+    assert_eq!(lines, [5, 7]);
 }
 
 /// A model that cannot go on beyond one second, and commands behind the one that fails.
@@ -445,5 +449,71 @@ fn functions_are_told_the_analysis() {
     ] {
         let found = results.block(block).unwrap().column(column).last();
         assert_eq!(found, Some(mode), "{block}");
+    }
+}
+
+/// INFO tells what a REQUEST would report, without leaving a trace in the run; TIME tells the time.
+#[test]
+fn information_is_written_when_it_is_asked_for() {
+    let commands = |asks: &str| {
+        format!("\nFILE/MODEL=slider\nSIM/DYN, END=1, STEPS=4\n{asks}SIM/DYN, END=2, STEPS=4\n")
+    };
+    let asks = "INFO/VELOCITY, I=20, RM=1\nINF/FORCE, I=20\nTIME\n";
+    let project = Project::load(&with_commands("info", &commands(asks))).unwrap();
+    let (report, results, log) = run_with_log(&project, RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed, "{log}");
+    let line = |component: &str| {
+        let line = log.lines().find(|line| line.contains(component));
+        line.unwrap_or_else(|| panic!("{component}: {log}"))
+            .to_owned()
+    };
+    // 6 N on 2 kg for a second.
+    assert!(line(" VZ ").contains("3.000000e0"), "{log}");
+    assert!(line(" WX ").contains(" 0.000000e0"), "{log}");
+    assert!(line(" FZ ").contains("6.000000e0"), "{log}");
+    assert!(log.contains("time 1, "), "{log}");
+    let project = Project::load(&with_commands("info", &commands(""))).unwrap();
+    let (_, without) = run(&project, RunOptions::default());
+    assert_eq!(results.data, without.data);
+    let missing = commands("INFO/DISPLACEMENT, I=77\n");
+    let project = Project::load(&with_commands("info", &missing)).unwrap();
+    let error = stiction::Session::new(&project).unwrap_err().to_string();
+    assert!(
+        error.contains("info.acf:4:1: error[missing-element]"),
+        "{error}"
+    );
+}
+
+/// A force moves to other markers between two simulations.
+#[test]
+fn a_command_moves_a_force_to_other_markers() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("move-input");
+    std::fs::create_dir_all(&folder).unwrap();
+    let model = "Two sliders and a push
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+PART/3, MASS=4, CM=30, IP=1, 1, 1
+MARKER/30, PART=3
+JOINT/1, TRANSLATIONAL, I=20, J=1
+JOINT/2, TRANSLATIONAL, I=30, J=1
+SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=8-0.0*VZ(20,30)
+INTEGRATOR/GSTIFF, SI2, ERROR=1E-8
+END
+";
+    std::fs::write(folder.join("two.adm"), model).unwrap();
+    let file = folder.join("two.acf");
+    let commands = "\nFILE/MODEL=two\nSIM/DYN, END=1, STEPS=2\nSFORCE/1, I=30, J=1\n\
+                    SIM/DYN, END=2, STEPS=2\n";
+    std::fs::write(&file, commands).unwrap();
+    let (report, results) = run(&Project::load(&file).unwrap(), RunOptions::default());
+    assert_eq!(report.outcome, Outcome::Completed);
+    for (part, speeds) in [(2, [4.0, 4.0]), (3, [0.0, 2.0])] {
+        let column = results.column(&format!("PART_{part}_XFORM.VZ")).unwrap();
+        for (block, speed) in ["dynamic_001", "dynamic_002"].into_iter().zip(speeds) {
+            let found = results.block(block).unwrap().column(column).last().unwrap();
+            assert!((found - speed).abs() < 1e-7, "{part} {block}: {found}");
+        }
     }
 }
