@@ -8,12 +8,17 @@ use super::report::{Ending, Observer, RunError, Settings, Statistics, StepReport
 use super::{Engine, Simulation};
 use crate::dynamics::{Dynamics, Formulation, Sliding, Work};
 use crate::instant::{Failure, Instant};
+use crate::model::Label;
 use crate::rotation::Quaternion;
-use crate::state::VELOCITIES;
+use crate::state::{POSITIONS, VELOCITIES};
 
 /// Part of the error tolerance that the positions of I3 may use. Its test leaves velocities out,
 /// which lose an order; with this part they, too, stay near the tolerance.
 const INDEX3_SHARE: f64 = 0.1;
+
+/// Change of the place of a body where a function jumps, in units of the error: what finding the jump
+/// leaves is below it.
+const PLACE_JUMP: f64 = 10.0;
 
 impl Simulation {
     /// Integrates to `end`, reporting every accepted step and the states at the rising `outputs`
@@ -194,12 +199,49 @@ impl Simulation {
         self.interpolate(bdf, dynamics, bdf.time());
         let range = self.state.share_range();
         self.state.values[range].copy_from_slice(&shares);
+        let before = self.state.values.clone();
         self.solve_within_step(dynamics, instant)?;
+        if let Some(element) = dynamics.turned_constraint() {
+            self.refuse_jump_of_place(element, &before, PLACE_JUMP * settings.error)?;
+        }
         dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
         let slope = self.slope();
         let first = self.first_step(instant, dynamics, &slope, end, settings);
         self.begin(bdf, dynamics, &slope, first);
         Ok(())
+    }
+
+    /// Refuses bodies that stand elsewhere than `before` by more than `error`, for their constraint
+    /// has jumped.
+    fn refuse_jump_of_place(
+        &self,
+        element: &Label,
+        before: &[f64],
+        error: f64,
+    ) -> Result<(), RunError> {
+        let places = POSITIONS * self.state.bodies();
+        let pairs = before.iter().zip(&self.state.values[..places]);
+        let moved = pairs.enumerate().fold(0.0_f64, |most, (k, (a, b))| {
+            // A rotation is twice the change of its quaternion.
+            let unit = if k % POSITIONS < 3 {
+                self.scales.length
+            } else {
+                0.5
+            };
+            most.max((a - b).abs() / unit)
+        });
+        if moved <= error {
+            return Ok(());
+        }
+        Err(RunError {
+            time: self.state.time,
+            message: format!(
+                "the function of {element} jumps, and with it the place of what it moves, which \
+                 nothing can follow; give the jump a width, as by STEP"
+            ),
+            element: Some(element.clone()),
+            jammed: false,
+        })
     }
 
     /// Starts the integrator from the instant solved last.

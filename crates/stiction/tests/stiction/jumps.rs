@@ -1,6 +1,8 @@
 //! Functions that jump: the integration goes through them.
 
-use crate::shared::run_text;
+use stiction::{Outcome, Project, RunOptions};
+
+use crate::shared::{run_text, run_with_log, scratch_folder};
 
 /// A double pendulum whose first joint is at rest and then, at once, turns at 30 degrees a second.
 fn dataset(integrator: &str) -> String {
@@ -50,4 +52,21 @@ fn a_jump_of_velocity_is_passed_by_both_formulations() {
     println!("jump of velocity: the free pendulum differs by {worst:.1e} rad between I3 and SI2");
     // It gets the same push in both, but for the error of the steps.
     assert!(worst < 1e-4);
+}
+
+#[test]
+fn a_jump_of_place_is_refused_by_name() {
+    let jump = dataset("INTEGRATOR/GSTIFF, SI2").replace("30D*(TIME-0.45)", "30D");
+    let folder = scratch_folder();
+    let file = folder.join("model.adm");
+    std::fs::write(&file, jump).unwrap();
+    let mut project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
+    project.push_dynamic(1.0, Some(10), None);
+    let (report, _, log) = run_with_log(&project, RunOptions::default());
+    std::fs::remove_dir_all(folder).unwrap();
+    assert!(matches!(report.outcome, Outcome::IntegrationFailed(_)));
+    assert!(
+        log.contains("at time 0.45") && log.contains("the function of MOTION/1 jumps"),
+        "{log}"
+    );
 }

@@ -311,6 +311,13 @@ impl Dynamics {
         self.switching.shares(&solved[range])
     }
 
+    /// A motion or constraint whose function jumps here.
+    pub(crate) fn turned_constraint(&self) -> Option<&Label> {
+        let mut switches = self.switching.switches.iter();
+        let found = switches.find(|switch| switch.turned && switch.constrains)?;
+        Some(self.system.switch_label(found.place))
+    }
+
     /// See [`Switching::lend`].
     pub(crate) fn lend_branches(&self, state: &State, system: &mut System) {
         self.switching.lend(state, system);
