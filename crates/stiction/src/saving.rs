@@ -16,7 +16,7 @@ use crate::project::{Project, SourcedCommand};
 use crate::recorder::ResultFiles;
 use crate::runner::{Halt, Recorded, Runner, status};
 use crate::saved_system::{SavedSystem, is_saved_system};
-use crate::session::{Outcome, OutputError};
+use crate::session::Outcome;
 use crate::survey::{self, Moment};
 
 impl Runner<'_> {
@@ -71,7 +71,10 @@ impl Runner<'_> {
             std::fs::write(&part, text)?;
             std::fs::rename(&part, path)
         });
-        written.map_err(|error| Halt::Output(OutputError::new(shown.to_string(), &error)))
+        written.map_err(|error| {
+            let text = format!("{shown} cannot be written: {error}");
+            self.refuse(step, text, "name a file in a folder that exists")
+        })
     }
 
     /// RELOAD.

@@ -218,7 +218,7 @@ impl Program {
             Operation::Binary(function, a, b) => binary(function, at(a), at(b)),
             Operation::If(a, negative, zero, positive)
             | Operation::Select(a, negative, zero, positive) => {
-                at(select(at(a).value(), negative, zero, positive))
+                at(select(a, at(a).value(), [negative, zero, positive]))
             }
             Operation::Lookup(table, order, x, z) => {
                 lookup(&self.tables[table], order, at(x), at(z))
@@ -279,7 +279,8 @@ impl Program {
                 }
                 Operation::If(a, negative, zero, positive)
                 | Operation::Select(a, negative, zero, positive) => {
-                    adjoints[select(at(a), negative, zero, positive) as usize] += adjoint;
+                    let taken = select(a, at(a), [negative, zero, positive]);
+                    adjoints[taken as usize] += adjoint;
                 }
                 Operation::Lookup(table, order, x, z) => {
                     let point = self.tables[table].at(order, at(x), at(z));
@@ -300,13 +301,17 @@ fn lookup<T: Scalar>(table: &Surface, order: usize, x: T, z: T) -> T {
     constant(point.value) + dx * (constant(point.by_x) + bend) + dz * constant(point.by_z)
 }
 
-fn select(x: f64, negative: Register, zero: Register, positive: Register) -> Register {
+/// The register that is taken by the sign of `x`, the value of register `a`: negative, zero,
+/// positive; `a` itself where that is not a number.
+fn select(a: Register, x: f64, [negative, zero, positive]: [Register; 3]) -> Register {
     if x < 0.0 {
         negative
     } else if x > 0.0 {
         positive
-    } else {
+    } else if x == 0.0 {
         zero
+    } else {
+        a
     }
 }
 

@@ -14,7 +14,7 @@
 //! An integrator holds each such *switch* in its cell while it steps, so that the program is smooth,
 //! and looks where the argument leaves the cell.
 
-use super::{Binary, Input, Operation, Program, Register, Unary};
+use super::{Binary, Input, Operation, Program, Register, Unary, select};
 use crate::scalar::Scalar;
 
 /// How a switch is evaluated.
@@ -57,6 +57,22 @@ impl Sharing {
 pub(super) struct Switch {
     place: usize,
     branch: Branch,
+}
+
+/// The register that an IF takes as in a cell. A branch need not be defined beyond the jump
+/// (`IF(x: 0, 0, SQRT(x))`): there it is the one that belongs to the argument.
+fn held_choice(
+    cell: f64,
+    x: Register,
+    choices: [Register; 3],
+    at: impl Fn(Register) -> f64,
+) -> Register {
+    let held = select(x, cell, choices);
+    if at(held).is_finite() && !at(x).is_nan() {
+        held
+    } else {
+        select(x, at(x), choices)
+    }
 }
 
 impl Operation {
@@ -114,13 +130,10 @@ impl Operation {
     /// The value as in a cell.
     fn in_cell<T: Scalar>(self, cell: f64, at: impl Fn(Register) -> T) -> T {
         match self {
-            Self::If(_, negative, zero, positive) => at(if cell < 0.0 {
-                negative
-            } else if cell > 0.0 {
-                positive
-            } else {
-                zero
-            }),
+            Self::If(x, negative, zero, positive) => {
+                let value = |r: Register| at(r).value();
+                at(held_choice(cell, x, [negative, zero, positive], value))
+            }
             Self::Binary(Binary::Modulo, x, y) => at(x) - at(y) * T::constant(cell),
             Self::Binary(_, a, _) => {
                 let keep = (at(a).value() < 0.0) == (cell < 0.0);
@@ -138,16 +151,9 @@ impl Operation {
         mut add: impl FnMut(Register, f64),
     ) {
         match self {
-            Self::If(_, negative, zero, positive) => add(
-                if cell < 0.0 {
-                    negative
-                } else if cell > 0.0 {
-                    positive
-                } else {
-                    zero
-                },
-                1.0,
-            ),
+            Self::If(x, negative, zero, positive) => {
+                add(held_choice(cell, x, [negative, zero, positive], at), 1.0);
+            }
             Self::Binary(Binary::Modulo, x, y) => {
                 add(x, 1.0);
                 add(y, -cell);

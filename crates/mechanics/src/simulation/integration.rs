@@ -166,7 +166,6 @@ impl Simulation {
         if ending == Ending::Completed && self.state.time != end {
             self.take(bdf, dynamics, end, instant)?;
         }
-        self.system.history.clone_from(&dynamics.system.history);
         Ok(ending)
     }
 

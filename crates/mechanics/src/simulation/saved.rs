@@ -35,7 +35,8 @@ impl SavedState {
         self.state.time
     }
 
-    /// Whether it has the sizes of a system with these equations in force. That may have more measures and algebraic variables.
+    /// Whether it has the sizes of a system with these equations in force. That may have more
+    /// measures and algebraic variables.
     fn fits(&self, system: &System) -> bool {
         let given = system.given_state(0.0);
         let rows = self.in_force.iter().filter(|active| **active).count();
@@ -45,7 +46,8 @@ impl SavedState {
             && self.accelerations.len() == system.rate_count()
             && (rows..=most).contains(&self.multipliers.len())
             && self.bristle_past.len() == system.bristle_count()
-            && self.history.frictions.len() == system.model().frictions.len()
+            // None before the model is assembled.
+            && [0, system.model().frictions.len()].contains(&self.history.frictions.len())
             && self.history.angles.len() <= system.model().measures.len()
     }
 }

@@ -3,7 +3,7 @@
 use super::System;
 use super::single_force::direction;
 use crate::equation::local_velocities;
-use crate::model::Element;
+use crate::model::{Element, Level};
 
 impl System {
     /// Number of works that are integrated: one by friction, that of forces, that of motions.
@@ -32,7 +32,13 @@ impl System {
         powers[frictions] = forces;
         let mut motions = 0.0;
         for (row, &place) in self.rows.iter().enumerate() {
-            motions += multipliers[row] * self.evaluated[place].rate;
+            let (constraint, evaluated) = (&self.constraints[place], &self.evaluated[place]);
+            // A motion that prescribes an acceleration has the velocity that has come of it.
+            let rate = match constraint.level {
+                Level::Acceleration => self.rate_along(constraint, evaluated),
+                Level::Position | Level::Velocity => evaluated.rate,
+            };
+            motions += multipliers[row] * rate;
         }
         powers[frictions + 1] = motions;
     }

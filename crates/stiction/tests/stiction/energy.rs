@@ -209,6 +209,33 @@ SIMULATE/DYNAMIC, DURATION=0.5, STEPS=50
     assert!(balance.residual_share() < 1e-6, "{balance}");
 }
 
+/// A motion works on what it moves, at whichever level it is prescribed.
+#[test]
+fn motions_of_every_level_do_work() {
+    for (level, function) in [
+        ("DISPLACEMENT", "2*TIME**2"),
+        ("VELOCITY", "4*TIME"),
+        ("ACCELERATION", "4"),
+    ] {
+        let model = format!(
+            "A mass that is moved
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=1
+MOTION/1, JOINT=1, TRANSLATION, {level}, FUNCTION={function}
+"
+        );
+        let commands = "\nSIMULATE/DYNAMIC, END=1, STEPS=10\n";
+        let balance = balance(&with_commands(&model, commands).unwrap(), 1e-8);
+        // At the end 2 kg at 4 m/s.
+        assert!((balance.motions - 16.0).abs() < 1e-5, "{level}: {balance}");
+        assert!(balance.residual_share() < 1e-5, "{level}: {balance}");
+    }
+}
+
 #[test]
 fn a_run_without_dynamics_has_no_balance() {
     let commands = "\nSIMULATE/STATIC\n";

@@ -154,6 +154,22 @@ fn states_are_reloaded_into_the_model_as_it_is() {
     std::fs::remove_dir_all(file.parent().unwrap()).unwrap();
 }
 
+/// What is saved before the model is assembled is the model itself.
+#[test]
+fn the_model_as_it_is_given_can_be_saved() {
+    let file = with_commands(
+        "SAVE/STATES, BUFFER=a\nSIM/DYN, END=0.2, STEPS=2\nRELOAD/STATES, BUFFER=a\n\
+         SIM/DYN, END=0.2, STEPS=2\n",
+    );
+    let report = carry_out(&file);
+    assert_eq!(report.outcome, Outcome::Completed, "{:?}", report.failures);
+    let results = file.with_file_name("brake.res");
+    let expected = rows(&results, "dynamic_001");
+    assert_eq!(expected.len(), 2);
+    assert_eq!(rows(&results, "dynamic_002"), expected);
+    std::fs::remove_dir_all(file.parent().unwrap()).unwrap();
+}
+
 #[test]
 fn what_cannot_be_reloaded_is_refused_with_a_sentence() {
     let save = with_commands("SIM/DYN, END=0.1, STEPS=1\nSAVE/SYSTEM, FILE=a.sav\n");
@@ -198,6 +214,7 @@ fn what_cannot_be_reloaded_is_refused_with_a_sentence() {
         ("RELOAD/SYSTEM, FILE=none.sav", "there is no "),
         ("RELOAD/STATES, BUFFER=none", "nothing has been saved"),
         ("SAVE/SYSTEM, FILE=brake.txt", "is not overwritten"),
+        ("SAVE/SYSTEM, FILE=nowhere/a.sav", "cannot be written"),
         (
             "RELOAD/SYSTEM, FILE=a.sav, OUTPUT_PREFIX=brake",
             "names no other files",

@@ -60,14 +60,20 @@ fn force(function: &str) -> String {
     format!("SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION={function}")
 }
 
-fn run(text: &str, end: f64, steps: u32) -> Ran {
+fn carry_out(text: &str, end: f64, steps: u32) -> (RunReport, ResFile, String) {
     let folder = scratch_folder();
     let file = folder.join("model.adm");
     std::fs::write(&file, text).unwrap();
     let mut project = Project::load(&file).unwrap_or_else(|error| panic!("{error}"));
     project.push_dynamic(end, Some(steps), None);
-    let (report, results, log) = run_with_log(&project, RunOptions::default());
+    let ran = run_with_log(&project, RunOptions::default());
     std::fs::remove_dir_all(folder).unwrap();
+    ran
+}
+
+/// The same of what must go through.
+fn run(text: &str, end: f64, steps: u32) -> Ran {
+    let (report, results, log) = carry_out(text, end, steps);
     assert_eq!(report.outcome, Outcome::Completed, "{log}");
     Ran {
         results,
@@ -352,6 +358,26 @@ fn dry_friction_written_by_hand_holds_and_lets_go() {
             assert!(ran.steps() < 2000);
         });
     }
+}
+
+/// A function need not be defined where an IF leaves it.
+#[test]
+fn branches_are_not_asked_beyond_their_jump() {
+    // sqrt(1 - t) until t = 1, from then on 0.5: v = (1 - (1 - t)^1.5) 2/3 / m, then linear.
+    let text = block(
+        &force("IF(TIME-1: SQRT(1-TIME), 0, 0.5)"),
+        "SI2, ERROR=1E-7",
+    );
+    let ran = run(&text, 2.0, 20);
+    let speed = |t: f64| (1.0 - (1.0 - t).max(0.0).powf(1.5)) / 3.0 + 0.25 * (t - 1.0).max(0.0);
+    // An error of 1e-7 a step over some hundred steps.
+    let error = ran.error("F3", speed);
+    assert!(error < 1e-5, "{error:e}");
+    // An argument that is not a number is an error, not a branch.
+    let text = block(&force("IF(SQRT(1-TIME): 1, 0, 2)"), "SI2, ERROR=1E-5");
+    let (report, _, log) = carry_out(&text, 2.0, 20);
+    assert!(matches!(report.outcome, Outcome::IntegrationFailed(_)));
+    assert!(log.contains("not a finite number"), "{log}");
 }
 
 #[test]
