@@ -9,134 +9,22 @@
 
 use std::time::Instant;
 
-use mechanics::model::{
-    Body, ForceAndTorque, Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Law,
-    Marker, Model,
-};
-use mechanics::rotation::Quaternion;
+use mechanics::model::Model;
 use mechanics::{Ending, Formulation, Observer, Settings, Simulation, Snapshot, StepReport};
-use nalgebra::{Matrix3, Vector3};
+use mechanisms::chains;
 
-/// Rods between two struts.
-const RODS: usize = 10;
-
-fn label(statement: &'static str, count: usize) -> Label {
-    Label {
-        statement,
-        id: count as u32 + 1,
-        name: String::new(),
-    }
-}
-
-#[derive(Default)]
-struct Builder(Model);
-
-impl Builder {
-    /// A rod of unit length along x with its centre of mass at `centre`.
-    fn rod(&mut self, centre: Vector3<f64>) -> usize {
-        let bodies = &mut self.0.bodies;
-        bodies.push(Body {
-            label: label("PART", bodies.len()),
-            mass: 1.0,
-            inertia: Matrix3::from_diagonal(&Vector3::new(0.001, 0.08, 0.08)),
-            centre: Vector3::zeros(),
-            origin: centre,
-            orientation: Quaternion::IDENTITY,
-            velocity: Vector3::zeros(),
-            angular_velocity: Vector3::zeros(),
-            exact: [false; 6],
-            given_velocity: [false; 6],
-            rotates: true,
-        });
-        bodies.len() - 1
-    }
-
-    fn marker(&mut self, body: Option<usize>, at: Vector3<f64>, axes: Matrix3<f64>) -> usize {
-        let offset = at - body.map_or(Vector3::zeros(), |body| self.0.bodies[body].origin);
-        self.0.markers.push(Marker {
-            id: self.0.markers.len() as u32 + 1,
-            body,
-            offset,
-            axes,
-        });
-        self.0.markers.len() - 1
-    }
-
-    fn joint(
-        &mut self,
-        kind: JointKind,
-        bodies: [Option<usize>; 2],
-        at: Vector3<f64>,
-        axes: Matrix3<f64>,
-    ) {
-        let [i, j] = bodies.map(|body| self.marker(body, at, axes));
-        self.0.joints.push(Joint {
-            label: label("JOINT", self.0.joints.len()),
-            kind,
-            i,
-            j,
-            translation_start: JointStart::default(),
-            rotation_start: JointStart::default(),
-        });
-    }
-
-    fn friction(&mut self, joint: usize) {
-        self.0.frictions.push(Friction {
-            label: label("FRICTION", joint),
-            joint,
-            law: Law::Original(friction::Original {
-                mu_static: 0.1,
-                mu_dynamic: 0.05,
-                transition_velocity: 0.05,
-                transition_coefficient: 1.5,
-                max_deformation: 0.01,
-                effect: friction::Effect::All,
-            }),
-            load: FrictionJoint::Revolute(friction::RevoluteLoad {
-                inputs: friction::Inputs::ALL,
-                pin_radius: 0.02,
-                friction_arm: 0.02,
-                bending_reaction_arm: 0.1,
-            }),
-            preload: ForceAndTorque::both(0.0),
-            maximum: ForceAndTorque::both(1e40),
-            inactive_static: false,
-        });
-    }
-}
-
-/// `count` rods in a row from ground, whose hinges turn about y and z by turns.
+/// `count` rods in a row from ground.
 fn chain(count: usize, loops: bool, friction: bool) -> Model {
-    let mut builder = Builder::default();
-    builder.0.gravity = Vector3::new(0.0, 0.0, -9.81);
-    let about_y = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0);
-    let mut last = None;
-    for k in 0..count {
-        let at = Vector3::new(k as f64, 0.0, 0.0);
-        let rod = builder.rod(at + Vector3::new(0.5, 0.0, 0.0));
-        let turn = if k % 3 == 1 {
-            Matrix3::identity()
-        } else {
-            about_y
-        };
-        builder.joint(JointKind::Revolute, [Some(rod), last], at, turn);
-        if friction {
-            builder.friction(k);
-        }
-        last = Some(rod);
+    let mut chain = chains::chain(count);
+    if friction {
+        chains::hinge_friction(&mut chain, |_| {
+            mechanisms::law(0.1, 0.05, 0.05, 0.01).into()
+        });
     }
     if loops {
-        for first in (0..count.saturating_sub(RODS)).step_by(RODS) {
-            let from = Vector3::new(first as f64 + 1.5, 0.0, 0.5);
-            let to = Vector3::new((first + RODS) as f64 - 0.5, 0.0, 0.5);
-            let strut = builder.rod(0.5 * (from + to));
-            let near = [Some(strut), Some(first + 1)];
-            let far = [Some(strut), Some(first + RODS - 1)];
-            builder.joint(JointKind::Spherical, near, from, Matrix3::identity());
-            builder.joint(JointKind::Hooke, far, to, Matrix3::identity());
-        }
+        chains::brace(&mut chain);
     }
-    builder.0
+    chain.model
 }
 
 /// Ends a run after so many steps.

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use verification::{Case, Section, check};
 
 use crate::runs::{assembled, go_on, settings};
-use crate::systems::pendulum;
+use mechanisms::pendulum;
 
 const END: f64 = 2.0;
 

@@ -5,10 +5,10 @@ use mechanics::{Formulation, Owner, Settings, Simulation};
 use nalgebra::Vector3;
 use verification::{Case, Rule, Section, check};
 
-use crate::builder::v;
 use crate::runs::{angular_velocity, assembled, energy, every, go_on, run, settings, turned};
 use crate::shared::{number, numbers, reference};
-use crate::systems::{
+use mechanisms::builder::v;
+use mechanisms::{
     andrews, body_angles, bricard, four_bar, four_bar_chain, free_body, pendulum, slider_crank, top,
 };
 

@@ -7,13 +7,13 @@ use mechanics::{Owner, Simulation};
 use nalgebra::Vector3;
 use verification::{Case, Coverage, Section, check};
 
-use crate::builder::{Builder, axes_with_z, v};
 use crate::oracle::{psi, root};
 use crate::runs::{assembled, run, settings};
 use crate::shared::{number, reference};
-use crate::systems::law;
-use crate::systems::sliding::Block;
-use crate::systems::turning::Pendulum;
+use mechanisms::builder::{Builder, axes_with_z, v};
+use mechanisms::law;
+use mechanisms::sliding::Block;
+use mechanisms::turning::Pendulum;
 
 /// Angular acceleration about z.
 fn acceleration(simulation: &Simulation) -> f64 {

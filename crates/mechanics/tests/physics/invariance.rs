@@ -9,10 +9,10 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use verification::{Case, Section, check};
 
-use crate::builder::v;
 use crate::runs::{assembled, energy, every, go_on, run, settings};
-use crate::systems::turning::ball_pendulum;
-use crate::systems::{four_bar, law, slider_crank};
+use mechanisms::builder::v;
+use mechanisms::turning::ball_pendulum;
+use mechanisms::{four_bar, law, slider_crank};
 
 const END: f64 = 0.3;
 const ERROR: f64 = 1e-8;

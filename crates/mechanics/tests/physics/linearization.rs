@@ -10,7 +10,7 @@ use mechanics::model::{
 use mechanics::{EquilibriumSettings, Simulation};
 use nalgebra::{Complex, Matrix3, Vector3};
 
-use crate::builder::{Builder, v};
+use mechanisms::builder::{Builder, v};
 
 /// Rounding of a dense eigenvalue problem of a few rows, whose condition is of order ten.
 const ROUNDING: f64 = 1e-11;

@@ -6,7 +6,6 @@
     reason = "the tables of errors are what these tests show"
 )]
 
-mod builder;
 mod convergence;
 mod friction_cases;
 mod frictionless;
@@ -17,4 +16,3 @@ mod oracle;
 mod redundancy;
 mod runs;
 mod shared;
-mod systems;

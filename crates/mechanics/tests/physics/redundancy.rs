@@ -4,9 +4,9 @@ use mechanics::model::{JointKind, Level, Model, MotionFreedom};
 use mechanics::{AssemblyError, Formulation, Owner, Simulation};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::builder::{Builder, axes_with_z, v};
 use crate::runs::{every, run, settings};
-use crate::systems::{four_bar, law, pendulum};
+use mechanisms::builder::{Builder, axes_with_z, v};
+use mechanisms::{four_bar, law, pendulum};
 
 fn four_bar_with_friction() -> Model {
     four_bar(Some(law(0.25, 0.2, 1e-3, 1e-5)))

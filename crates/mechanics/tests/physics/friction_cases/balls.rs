@@ -7,12 +7,12 @@ use nalgebra::Vector3;
 use verification::{Case, Rule, Section, check};
 
 use super::{HALVINGS, UNLOADED, original};
-use crate::builder::v;
 use crate::oracle::{psi, root};
 use crate::runs::{run, settings, turned};
 use crate::shared::{number, numbers, reference};
-use crate::systems::law;
-use crate::systems::turning::{Pendulum, ball_pendulum};
+use mechanisms::builder::v;
+use mechanisms::law;
+use mechanisms::turning::{Pendulum, ball_pendulum};
 
 const SOURCE: &str = "closed form; Runge–Kutta 1e-13 for the spatial motion";
 const BALL: &str =

@@ -7,7 +7,7 @@ use verification::{Case, Section, check};
 use super::original;
 use crate::runs::{run, settings};
 use crate::shared::{number, reference, table};
-use crate::systems::{Cross, law, shafts};
+use mechanisms::{Cross, law, shafts};
 
 #[test]
 fn work_of_a_cross_per_turn() {

@@ -6,11 +6,11 @@ use mechanics::model::{Level, MotionFreedom};
 use verification::{Case, Section, check};
 
 use super::original;
-use crate::builder::v;
 use crate::runs::{Sample, every, run, settings, turning_points};
 use crate::shared::{number, numbers, reference};
-use crate::systems::law;
-use crate::systems::sliding::{Block, place, speed};
+use mechanisms::builder::v;
+use mechanisms::law;
+use mechanisms::sliding::{Block, place, speed};
 
 fn error(tolerance: f64) -> mechanics::Settings {
     settings(Formulation::Si2, tolerance, 0.05)

@@ -8,10 +8,10 @@ use serde_json::Value;
 use verification::{Case, Claim, Rule, Section, check};
 
 use super::{HALVINGS, TURNS, lugre, original};
-use crate::builder::Builder;
 use crate::runs::{Sample, every, run, settings, turned, turning_points};
 use crate::shared::{number, reference, table};
-use crate::systems::{bristles, driven_slider_crank, four_bar, law, slider_crank};
+use mechanisms::builder::Builder;
+use mechanisms::{bristles, driven_slider_crank, four_bar, law, slider_crank};
 
 /// Turning points of the crank (body 0) that starts at `start`, and its last angle.
 fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {

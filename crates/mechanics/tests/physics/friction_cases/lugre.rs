@@ -9,14 +9,14 @@ use nalgebra::Vector3;
 use verification::{Case, Section, check};
 
 use super::lugre;
-use super::springs::Belt;
-use crate::builder::axes_with_z;
 use crate::oracle::{self, runge_kutta};
 use crate::runs::{run, settings, turned};
 use crate::shared::{number, reference, table};
-use crate::systems::sliding::{Block, place, speed};
-use crate::systems::turning::Pendulum;
-use crate::systems::{bristles, law};
+use mechanisms::Belt;
+use mechanisms::builder::axes_with_z;
+use mechanisms::sliding::{Block, place, speed};
+use mechanisms::turning::Pendulum;
+use mechanisms::{bristles, law};
 
 /// B12a: from rest on three slopes.
 #[test]

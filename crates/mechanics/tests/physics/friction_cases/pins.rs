@@ -8,8 +8,8 @@ use super::{HALVINGS, TURNS, original};
 use crate::oracle::{psi, root};
 use crate::runs::{Sample, every, run, settings, turned, turning_points};
 use crate::shared::{number, reference};
-use crate::systems::law;
-use crate::systems::turning::Pendulum;
+use mechanisms::law;
+use mechanisms::turning::Pendulum;
 
 /// Turning points and the last angle of a pendulum.
 fn swings(pendulum: &Pendulum, end: f64) -> (Vec<(f64, f64)>, f64) {

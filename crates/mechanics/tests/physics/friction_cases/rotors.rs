@@ -8,11 +8,11 @@ use nalgebra::Vector3;
 use verification::{Case, Rule, Section, check};
 
 use super::{HALVINGS, UNLOADED, original};
-use crate::builder::Builder;
 use crate::oracle::{psi, root, runge_kutta};
 use crate::runs::{angular_velocity, assembled, every, run, settings, turned};
-use crate::systems::law;
-use crate::systems::turning::{rotor, unbalanced_rotor};
+use mechanisms::builder::Builder;
+use mechanisms::law;
+use mechanisms::turning::{rotor, unbalanced_rotor};
 
 /// B05a: a rotor that carries its weight on a collar, until it stops.
 #[test]

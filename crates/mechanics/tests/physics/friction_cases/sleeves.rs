@@ -8,7 +8,7 @@ use super::{HALVINGS, UNLOADED, lugre, original};
 use crate::oracle::{self, runge_kutta};
 use crate::runs::{run, settings};
 use crate::shared::{number, reference};
-use crate::systems::{Sleeve, bristles, law};
+use mechanisms::{Sleeve, bristles, law};
 
 /// Place along the axis.
 fn place(s: &Snapshot<'_>) -> f64 {

@@ -10,11 +10,11 @@ use serde_json::Value;
 use verification::{Case, Claim, Rule, Section, check};
 
 use super::{HALVINGS, LIMIT, TURNS, UNLOADED, original};
-use crate::builder::{Builder, axes_with_z};
 use crate::runs::{run, settings};
 use crate::shared::{number, reference};
-use crate::systems::law;
-use crate::systems::sliding::{Block, place, speed};
+use mechanisms::builder::{Builder, axes_with_z};
+use mechanisms::law;
+use mechanisms::sliding::{Block, place, speed};
 
 /// Where a block of the reference stands and its friction at the end, for one Vs and Dm.
 fn end_of(case: &Value, transition_velocity: f64, max_deformation: f64) -> (f64, f64) {

@@ -7,7 +7,7 @@ use verification::{Case, Section, check};
 use super::original;
 use crate::runs::{run, settings};
 use crate::shared::{numbers, reference};
-use crate::systems::rssr;
+use mechanisms::rssr;
 
 /// Force of the coupler (positive pulls) by the torque of the crank's motion, and spin of the coupler
 /// by the rate of the crank, at whole degrees.

@@ -2,16 +2,16 @@
 
 use friction::parameters::JointType;
 use mechanics::Formulation;
-use mechanics::model::{FrictionJoint, JointKind, Law, Level, Model, MotionFreedom};
-use nalgebra::{Matrix3, Vector3};
+use mechanics::model::Model;
+use nalgebra::Matrix3;
 use verification::{Case, Rule, Section, check};
 
 use super::{HALVINGS, LIMIT, TURNS, original};
-use crate::builder::{Builder, v};
 use crate::runs::{Sample, every, run, settings, turning_points};
 use crate::shared::{number, reference, table};
-use crate::systems::law;
-use crate::systems::sliding::{Block, place, speed};
+use mechanisms::builder::v;
+use mechanisms::sliding::{Block, place, speed};
+use mechanisms::{Belt, law};
 
 /// 9.7: mass on a spring, `μ_s = μ_d`: the amplitude falls by `2 μ m g / k` each half swing.
 #[test]
@@ -72,41 +72,6 @@ fn spring_and_mass() {
             LIMIT,
         ),
     ]);
-}
-
-/// A block on a belt that runs along x, held by a spring to ground; it starts with the belt.
-#[derive(Clone, Copy)]
-pub(crate) struct Belt {
-    pub(crate) mass: f64,
-    pub(crate) gravity: f64,
-    pub(crate) stiffness: f64,
-    pub(crate) speed: f64,
-    /// Velocity of the block at the start.
-    pub(crate) start: f64,
-}
-
-impl Belt {
-    pub(crate) fn model(&self, law: impl Into<Law>) -> Model {
-        let mut b = Builder::new(v(0.0, -self.gravity, 0.0));
-        let block = b.body(self.mass, [0.02; 3], Vector3::zeros());
-        let belt = b.body(1.0, [0.02; 3], Vector3::zeros());
-        let x = Vector3::x();
-        let slides =
-            |b: &mut Builder, i, j| b.joint(JointKind::Translational, i, j, Vector3::zeros(), x);
-        let contact = slides(&mut b, Some(block), Some(belt));
-        let guide = slides(&mut b, Some(belt), None);
-        b.drive(guide, MotionFreedom::Along(2), Level::Position, self.speed);
-        for (body, velocity) in [(block, self.start), (belt, self.speed)] {
-            b.model.bodies[body].velocity = v(velocity, 0.0, 0.0);
-            b.model.bodies[body].given_velocity = [true; 6];
-        }
-        let i = b.marker(Some(block), Vector3::zeros(), Matrix3::identity());
-        let j = b.marker(None, v(-10.0, 0.0, 0.0), Matrix3::identity());
-        b.spring(i, j, self.stiffness, 10.0);
-        let load = Block::new(crate::systems::law(1.0, 1.0, 1.0, 1.0)).load;
-        b.friction(contact, law, FrictionJoint::Translational(load));
-        b.model
-    }
 }
 
 /// Place and speed of the block at equal intervals.

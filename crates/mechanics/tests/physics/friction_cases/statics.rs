@@ -9,8 +9,8 @@ use super::original;
 use crate::oracle::psi;
 use crate::runs::{go_on, settings};
 
-use crate::systems::sliding::{Block, place};
-use crate::systems::{Cross, bristles, law, shafts};
+use mechanisms::sliding::{Block, place};
+use mechanisms::{Cross, bristles, law, shafts};
 
 const TIGHT: EquilibriumSettings = EquilibriumSettings {
     error: 1e-12,

@@ -6,11 +6,12 @@ use mechanics::model::{FrictionJoint, JointKind, Level, Model, MotionFreedom};
 use nalgebra::Vector3;
 
 use crate::builder::{Builder, v};
-use crate::systems::turning::pin_load;
+use crate::turning::pin_load;
 
 /// A02: `loops` four-bar loops of rods of 1 m and 1 kg side by side, all joints revolute. The
 /// top moves at 1 m/s along x at first. Body `2 k` is the upright at x = k.
-pub(crate) fn four_bar_chain(loops: usize) -> Model {
+#[must_use]
+pub fn four_bar_chain(loops: usize) -> Model {
     let mut b = Builder::new(v(0.0, -9.81, 0.0));
     let foot = |k: usize| v(k as f64, 0.0, 0.0);
     let head = |k: usize| v(k as f64, 1.0, 0.0);
@@ -35,7 +36,8 @@ pub(crate) fn four_bar_chain(loops: usize) -> Model {
 
 /// A04: Bricard's mechanism, five thin rods of 1 m and 1 kg along edges of a cube, six revolute
 /// joints, each perpendicular to the rods that it joins. Body 2 ends at the point P3.
-pub(crate) fn bricard() -> Model {
+#[must_use]
+pub fn bricard() -> Model {
     let points = [
         v(0.0, 0.0, 0.0),
         v(1.0, 0.0, 0.0),
@@ -64,7 +66,8 @@ pub(crate) fn bricard() -> Model {
 
 /// C01: crank 0.1 m, rod 0.3 m, slider along x; 1, 1.5 and 2 kg, weight along −y. The crank starts
 /// at 0.5 rad with 20 rad/s. Friction in the slider.
-pub(crate) fn slider_crank(law: Option<Original>) -> Model {
+#[must_use]
+pub fn slider_crank(law: Option<Original>) -> Model {
     let mut b = Builder::new(v(0.0, -9.80665, 0.0));
     let (crank, rod, angle) = (0.1, 0.3, 0.5_f64);
     let knee = crank * v(angle.cos(), angle.sin(), 0.0);
@@ -99,8 +102,9 @@ pub(crate) fn slider_crank(law: Option<Original>) -> Model {
     b.model
 }
 
-/// C01d: the slider-crank driven at 30 rad/s (motion 0), with friction in its pins of 15 mm radius too.
-pub(crate) fn driven_slider_crank(law: Option<Original>) -> Model {
+/// The slider-crank of C01 with friction in its pins of 15 mm radius too.
+#[must_use]
+pub fn slider_crank_with_pins(law: Option<Original>) -> Model {
     let mut b = Builder {
         model: slider_crank(law),
     };
@@ -109,6 +113,15 @@ pub(crate) fn driven_slider_crank(law: Option<Original>) -> Model {
             b.friction(joint, law, pin_load(0.015, 1.0));
         }
     }
+    b.model
+}
+
+/// C01d: the slider-crank with friction in all joints driven at 30 rad/s (motion 0).
+#[must_use]
+pub fn driven_slider_crank(law: Option<Original>) -> Model {
+    let mut b = Builder {
+        model: slider_crank_with_pins(law),
+    };
     b.drive(0, MotionFreedom::AboutZ, Level::Position, 30.0);
     b.start_turning(0, 30.0);
     b.model
@@ -116,7 +129,8 @@ pub(crate) fn driven_slider_crank(law: Option<Original>) -> Model {
 
 /// C02: four-bar of 0.1, 0.35, 0.3 on a base of 0.4 m; 1, 3.5 and 3 kg, weight along −y. The crank
 /// starts at 0.3 rad with 20 rad/s. Friction in all four pins of 15 mm radius.
-pub(crate) fn four_bar(law: Option<Original>) -> Model {
+#[must_use]
+pub fn four_bar(law: Option<Original>) -> Model {
     let mut b = Builder::new(v(0.0, -9.80665, 0.0));
     let angle = 0.3_f64;
     let (base, knee) = (v(0.4, 0.0, 0.0), 0.1 * v(angle.cos(), angle.sin(), 0.0));

@@ -6,7 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use crate::builder::{Builder, v};
 
 /// A mass of 1 kg on a massless arm of 1 m, pinned at the origin, horizontal to the left, at rest.
-pub(crate) fn pendulum() -> Model {
+#[must_use]
+pub fn pendulum() -> Model {
     let mut b = Builder::new(v(0.0, -9.81, 0.0));
     let mass = b.body(1.0, [0.0; 3], v(-1.0, 0.0, 0.0));
     b.pin(Some(mass), None, Vector3::zeros());
@@ -14,7 +15,8 @@ pub(crate) fn pendulum() -> Model {
 }
 
 /// A body of 1 kg with nothing acting on it, turning with `omega`.
-pub(crate) fn free_body(inertia: [f64; 3], omega: Vector3<f64>) -> Model {
+#[must_use]
+pub fn free_body(inertia: [f64; 3], omega: Vector3<f64>) -> Model {
     let mut b = Builder::new(Vector3::zeros());
     let body = b.body(1.0, inertia, Vector3::zeros());
     b.spin(body, omega, Vector3::zeros());
@@ -24,7 +26,8 @@ pub(crate) fn free_body(inertia: [f64; 3], omega: Vector3<f64>) -> Model {
 /// A heavy top on a point at the origin: mass 1 kg, centre 0.1 m along its axis, inertia about the
 /// point 0.02 across and 0.005 kg m² along the axis. It starts 30° from the vertical towards x,
 /// spinning at 100 rad/s about its axis.
-pub(crate) fn top() -> Model {
+#[must_use]
+pub fn top() -> Model {
     let tilt = std::f64::consts::FRAC_PI_6;
     let axis = v(tilt.sin(), 0.0, tilt.cos());
     let mut b = Builder::new(v(0.0, 0.0, -9.81));

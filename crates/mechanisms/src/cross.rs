@@ -7,14 +7,18 @@ use nalgebra::{Matrix3, Vector3};
 use crate::builder::{Builder, v};
 
 /// How a cross is described: HOOKE or UNIVERSAL.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Cross {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cross {
+    /// As a HOOKE joint.
     Hooke,
+    /// As a UNIVERSAL joint.
     Universal,
 }
 
 impl Cross {
-    pub(crate) const fn pins(self) -> [Pin; 2] {
+    /// Its pins, on I and on J.
+    #[must_use]
+    pub const fn pins(self) -> [Pin; 2] {
         match self {
             Self::Hooke => [Pin::HookeI, Pin::HookeJ],
             Self::Universal => [Pin::UniversalI, Pin::UniversalJ],
@@ -26,7 +30,8 @@ impl Cross {
 /// input turns about z at 10 rad/s, driven by motion 0 in joint 0, its pin along x at first; the
 /// output is loaded with a torque of 5 against it. Joint 1 is the cross. Friction acts in the pins
 /// whose law is given.
-pub(crate) fn shafts(cross: Cross, laws: [Option<Original>; 2]) -> Model {
+#[must_use]
+pub fn shafts(cross: Cross, laws: [Option<Original>; 2]) -> Model {
     let (sine, cosine) = std::f64::consts::FRAC_PI_6.sin_cos();
     let output_axis = v(sine, 0.0, cosine);
     let mut b = Builder::new(Vector3::zeros());

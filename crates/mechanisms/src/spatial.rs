@@ -5,7 +5,7 @@ use mechanics::model::{FrictionJoint, JointKind, Level, Model, MotionFreedom};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::builder::{Builder, v};
-use crate::systems::{law, turning::bearing_load};
+use crate::{law, turning::bearing_load};
 
 /// Lengths of crank, coupler and rocker, mm.
 const LENGTHS: [f64; 3] = [201.6318, 350.0, 201.6318];
@@ -13,15 +13,18 @@ const LENGTHS: [f64; 3] = [201.6318, 350.0, 201.6318];
 /// The mechanism with its crank at zero, driven at `rate` about the axis of joint 0; a torque of one
 /// turns the rocker back about the axis of joint 3. Joint 1 is the ball between crank and coupler,
 /// joint 2 that between rocker and coupler.
-pub(crate) struct Rssr {
-    pub(crate) model: Model,
+#[derive(Clone, Debug)]
+pub struct Rssr {
+    /// The mechanism.
+    pub model: Model,
     /// Axis of the crank.
-    pub(crate) axis: Vector3<f64>,
+    pub axis: Vector3<f64>,
 }
 
 /// Millimetres; inertia is negligible. `pins` scales the coefficients of friction of the pins; zero
 /// leaves friction out.
-pub(crate) fn rssr(pins: f64, rate: f64) -> Rssr {
+#[must_use]
+pub fn rssr(pins: f64, rate: f64) -> Rssr {
     let [a, coupler, c] = LENGTHS;
     let axis = v(0.009_243, -0.951_003, 0.309_043).normalize();
     let base = 403.1627 * v(0.524_328, 0.835_662, -0.163_552);

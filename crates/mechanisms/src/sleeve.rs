@@ -7,17 +7,21 @@ use nalgebra::Vector3;
 use crate::builder::{Builder, v};
 
 /// 2 kg with the given inertia on an axis of radius `pin_radius` along x; `weight` presses it down.
-#[derive(Clone, Copy)]
-pub(crate) struct Sleeve {
-    pub(crate) weight: f64,
-    pub(crate) inertia: f64,
-    pub(crate) pin_radius: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Sleeve {
+    /// Weight, across the axis.
+    pub weight: f64,
+    /// Inertia about every axis through the centre.
+    pub inertia: f64,
+    /// Radius of the axis.
+    pub pin_radius: f64,
     /// Velocity along and about the axis at the start.
-    pub(crate) start: [f64; 2],
+    pub start: [f64; 2],
 }
 
 impl Sleeve {
-    pub(crate) fn model(&self, law: impl Into<Law>) -> Model {
+    /// The sleeve with friction by `law` in its cylindrical joint.
+    pub fn model(&self, law: impl Into<Law>) -> Model {
         let mass = 2.0;
         let mut b = Builder::new(v(0.0, -self.weight / mass, 0.0));
         let body = b.body(mass, [self.inertia; 3], Vector3::zeros());

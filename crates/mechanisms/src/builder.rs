@@ -1,4 +1,5 @@
-//! Models written down in ground axes: bodies where they stand, markers where they are.
+//! Models written down in ground axes: bodies where they stand, markers where they are. Lengths,
+//! masses and forces are in consistent units.
 
 use mechanics::expression::{Binary, Input, Operation, Program};
 use mechanics::measure::{Measure, Quantity};
@@ -9,12 +10,15 @@ use mechanics::model::{
 use mechanics::rotation::Quaternion;
 use nalgebra::{Matrix3, Vector3};
 
-pub(crate) fn v(x: f64, y: f64, z: f64) -> Vector3<f64> {
+/// The vector with these components.
+#[must_use]
+pub fn v(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x, y, z)
 }
 
 /// Axes with z along `z`; x is the ground axis most perpendicular to it, made perpendicular.
-pub(crate) fn axes_with_z(z: Vector3<f64>) -> Matrix3<f64> {
+#[must_use]
+pub fn axes_with_z(z: Vector3<f64>) -> Matrix3<f64> {
     let z = z.normalize();
     let least = (0..3).fold(0, |b, k| if z[k].abs() < z[b].abs() { k } else { b });
     let mut x = Vector3::zeros();
@@ -24,15 +28,19 @@ pub(crate) fn axes_with_z(z: Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// A body by its place in the model, or ground.
-pub(crate) type On = Option<usize>;
+pub type On = Option<usize>;
 
-#[derive(Clone, Default)]
-pub(crate) struct Builder {
-    pub(crate) model: Model,
+/// A model that is being written down.
+#[derive(Clone, Debug, Default)]
+pub struct Builder {
+    /// What there is so far.
+    pub model: Model,
 }
 
 impl Builder {
-    pub(crate) fn new(gravity: Vector3<f64>) -> Self {
+    /// An empty model with this acceleration of gravity.
+    #[must_use]
+    pub fn new(gravity: Vector3<f64>) -> Self {
         Self {
             model: Model {
                 gravity,
@@ -50,7 +58,7 @@ impl Builder {
     }
 
     /// A body at rest with its centre of mass at `centre`, part axes `orientation`.
-    pub(crate) fn turned_body(
+    pub fn turned_body(
         &mut self,
         mass: f64,
         inertia: Matrix3<f64>,
@@ -74,20 +82,33 @@ impl Builder {
     }
 
     /// A body at rest with principal inertia along ground axes.
-    pub(crate) fn body(&mut self, mass: f64, inertia: [f64; 3], centre: Vector3<f64>) -> usize {
+    pub fn body(&mut self, mass: f64, inertia: [f64; 3], centre: Vector3<f64>) -> usize {
         let inertia = Matrix3::from_diagonal(&Vector3::from(inertia));
         self.turned_body(mass, inertia, centre, Quaternion::IDENTITY)
     }
 
     /// A uniform thin rod from `a` to `b`, without inertia about its own axis.
-    pub(crate) fn rod(&mut self, mass: f64, a: Vector3<f64>, b: Vector3<f64>) -> usize {
+    pub fn rod(&mut self, mass: f64, a: Vector3<f64>, b: Vector3<f64>) -> usize {
+        self.rod_with_axial_inertia(mass, 0.0, a, b)
+    }
+
+    /// A uniform thin rod from `a` to `b` with this inertia about its own axis.
+    pub fn rod_with_axial_inertia(
+        &mut self,
+        mass: f64,
+        axial: f64,
+        a: Vector3<f64>,
+        b: Vector3<f64>,
+    ) -> usize {
         let d = b - a;
-        let inertia = mass / 12.0 * (d.norm_squared() * Matrix3::identity() - d * d.transpose());
+        let along = d * d.transpose();
+        let across = mass / 12.0 * (d.norm_squared() * Matrix3::identity() - along);
+        let inertia = across + axial / d.norm_squared() * along;
         self.turned_body(mass, inertia, 0.5 * (a + b), Quaternion::IDENTITY)
     }
 
     /// Gives a body the velocities of a rotation `omega` about the point `about`.
-    pub(crate) fn spin(&mut self, body: usize, omega: Vector3<f64>, about: Vector3<f64>) {
+    pub fn spin(&mut self, body: usize, omega: Vector3<f64>, about: Vector3<f64>) {
         let body = &mut self.model.bodies[body];
         body.velocity = omega.cross(&(body.origin - about));
         body.angular_velocity = omega;
@@ -95,7 +116,7 @@ impl Builder {
     }
 
     /// A marker at `at` with the given axes, both in ground as the bodies stand.
-    pub(crate) fn marker(&mut self, on: On, at: Vector3<f64>, axes: Matrix3<f64>) -> usize {
+    pub fn marker(&mut self, on: On, at: Vector3<f64>, axes: Matrix3<f64>) -> usize {
         let (offset, axes) = match on {
             None => (at, axes),
             Some(body) => {
@@ -115,7 +136,7 @@ impl Builder {
     }
 
     /// A joint between markers that coincide at `at` with z along `z`.
-    pub(crate) fn joint(
+    pub fn joint(
         &mut self,
         kind: JointKind,
         i: On,
@@ -129,7 +150,8 @@ impl Builder {
         self.joint_of_markers(kind, i, j)
     }
 
-    pub(crate) fn joint_of_markers(&mut self, kind: JointKind, i: usize, j: usize) -> usize {
+    /// A joint between markers as they are.
+    pub fn joint_of_markers(&mut self, kind: JointKind, i: usize, j: usize) -> usize {
         self.model.joints.push(Joint {
             label: Self::label("JOINT", self.model.joints.len()),
             kind,
@@ -142,16 +164,17 @@ impl Builder {
     }
 
     /// A revolute joint about z through `at`.
-    pub(crate) fn pin(&mut self, i: On, j: On, at: Vector3<f64>) -> usize {
+    pub fn pin(&mut self, i: On, j: On, at: Vector3<f64>) -> usize {
         self.joint(JointKind::Revolute, i, j, at, Vector3::z())
     }
 
     /// Starts a joint with an angular velocity of I against J about z of J.
-    pub(crate) fn start_turning(&mut self, joint: usize, omega: f64) {
+    pub fn start_turning(&mut self, joint: usize, omega: f64) {
         self.model.joints[joint].rotation_start.velocity = Some(omega);
     }
 
-    pub(crate) fn measure(&mut self, quantity: Quantity, i: usize, j: usize) -> usize {
+    /// A quantity for functions to read, along the axes of J.
+    pub fn measure(&mut self, quantity: Quantity, i: usize, j: usize) -> usize {
         self.model.measures.push(Measure {
             quantity,
             i,
@@ -162,7 +185,8 @@ impl Builder {
         self.model.measures.len() - 1
     }
 
-    pub(crate) fn force(&mut self, kind: ForceKind, i: usize, j: usize, function: Program) {
+    /// A force or torque with one component.
+    pub fn force(&mut self, kind: ForceKind, i: usize, j: usize, function: Program) {
         let label = Self::label("SFORCE", self.model.forces.len());
         self.model.forces.push(SingleForce {
             label,
@@ -174,27 +198,39 @@ impl Builder {
     }
 
     /// A constant torque about `axis` on a body alone.
-    pub(crate) fn torque(&mut self, body: usize, axis: Vector3<f64>, torque: f64) {
+    pub fn torque(&mut self, body: usize, axis: Vector3<f64>, torque: f64) {
         let at = self.model.bodies[body].origin;
         let i = self.marker(Some(body), at, axes_with_z(axis));
         let j = self.marker(None, at, axes_with_z(axis));
         self.force(ForceKind::AboutZActionOnly, i, j, Program::constant(torque));
     }
 
-    /// A spring between two points, without damping.
-    pub(crate) fn spring(&mut self, i: usize, j: usize, stiffness: f64, length: f64) {
+    /// A spring between two points that pushes them to the distance `length`.
+    pub fn spring(&mut self, i: usize, j: usize, stiffness: f64, length: f64) {
+        self.spring_damper(i, j, stiffness, 0.0, length);
+    }
+
+    /// A spring and a damper between two points; without damping it reads no rate.
+    pub fn spring_damper(&mut self, i: usize, j: usize, stiffness: f64, damping: f64, length: f64) {
         let distance = self.measure(Quantity::Distance, i, j);
         let mut force = Program::default();
         let free = force.push(Operation::Constant(length));
         let now = force.push(Operation::Input(Input::Measure(distance)));
         let short = force.push(Operation::Binary(Binary::Subtract, free, now));
         let stiffness = force.push(Operation::Constant(stiffness));
-        force.push(Operation::Binary(Binary::Multiply, stiffness, short));
+        let push = force.push(Operation::Binary(Binary::Multiply, stiffness, short));
+        if damping != 0.0 {
+            let rate = self.measure(Quantity::SeparationRate, i, j);
+            let rate = force.push(Operation::Input(Input::Measure(rate)));
+            let damping = force.push(Operation::Constant(damping));
+            let damped = force.push(Operation::Binary(Binary::Multiply, damping, rate));
+            force.push(Operation::Binary(Binary::Subtract, push, damped));
+        }
         self.force(ForceKind::LineOfSight, i, j, force);
     }
 
     /// A motion at a joint's markers whose function is `rate · time` (position), or `rate`.
-    pub(crate) fn drive(&mut self, joint: usize, freedom: MotionFreedom, level: Level, rate: f64) {
+    pub fn drive(&mut self, joint: usize, freedom: MotionFreedom, level: Level, rate: f64) {
         let mut function = Program::constant(rate);
         if level == Level::Position {
             let time = function.push(Operation::Input(Input::Time));
@@ -212,7 +248,8 @@ impl Builder {
         });
     }
 
-    pub(crate) fn friction(&mut self, joint: usize, law: impl Into<Law>, load: FrictionJoint) {
+    /// Friction in a joint, without preload and limit.
+    pub fn friction(&mut self, joint: usize, law: impl Into<Law>, load: FrictionJoint) {
         let label = Self::label("FRICTION", self.model.frictions.len());
         self.model.frictions.push(Friction {
             label,

@@ -8,26 +8,33 @@ use nalgebra::Vector3;
 use crate::builder::{Builder, v};
 
 /// The block and its friction; it slides along x, downhill positive.
-#[derive(Clone, Copy)]
-pub(crate) struct Block {
-    pub(crate) mass: f64,
-    pub(crate) gravity: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Block {
+    /// Its mass.
+    pub mass: f64,
+    /// Acceleration of gravity.
+    pub gravity: f64,
     /// Slope, degrees.
-    pub(crate) slope: f64,
+    pub slope: f64,
     /// Velocity at the start.
-    pub(crate) velocity: f64,
-    pub(crate) law: Law,
-    pub(crate) load: TranslationalLoad,
-    pub(crate) preload: f64,
-    pub(crate) maximum: f64,
-    /// Torque that bends the guide, and torque about it.
-    pub(crate) bending: f64,
-    pub(crate) torsion: f64,
+    pub velocity: f64,
+    /// The law of friction.
+    pub law: Law,
+    /// What loads the guide.
+    pub load: TranslationalLoad,
+    /// Friction without load.
+    pub preload: f64,
+    /// Limit of friction by load.
+    pub maximum: f64,
+    /// Torque that bends the guide.
+    pub bending: f64,
+    /// Torque about the guide.
+    pub torsion: f64,
 }
 
 impl Block {
     /// 2 kg on 30°, g = 9.80665 m/s², at rest.
-    pub(crate) fn new(law: impl Into<Law>) -> Self {
+    pub fn new(law: impl Into<Law>) -> Self {
         Self {
             mass: 2.0,
             gravity: 9.80665,
@@ -48,7 +55,9 @@ impl Block {
         }
     }
 
-    pub(crate) fn builder(&self) -> Builder {
+    /// The block on its slope, to add to.
+    #[must_use]
+    pub fn builder(&self) -> Builder {
         let (sine, cosine) = self.slope.to_radians().sin_cos();
         let mut b = Builder::new(self.gravity * v(sine, -cosine, 0.0));
         let block = b.body(self.mass, [0.02; 3], Vector3::zeros());
@@ -73,17 +82,21 @@ impl Block {
         b
     }
 
-    pub(crate) fn model(&self) -> Model {
+    /// The block on its slope.
+    #[must_use]
+    pub fn model(&self) -> Model {
         self.builder().model
     }
 }
 
 /// Place of the block along the guide.
-pub(crate) fn place(snapshot: &Snapshot<'_>) -> f64 {
+#[must_use]
+pub fn place(snapshot: &Snapshot<'_>) -> f64 {
     snapshot.state().centre(0).x
 }
 
 /// Its velocity.
-pub(crate) fn speed(snapshot: &Snapshot<'_>) -> f64 {
+#[must_use]
+pub fn speed(snapshot: &Snapshot<'_>) -> f64 {
     snapshot.state().velocities()[0]
 }

@@ -7,17 +7,20 @@ use nalgebra::Vector3;
 use crate::builder::{Builder, v};
 
 /// The model, and the angles of its bodies at the start in terms of the published coordinates.
-pub(crate) struct Andrews {
-    pub(crate) model: Model,
+#[derive(Clone, Debug)]
+pub struct Andrews {
+    /// The mechanism.
+    pub model: Model,
     /// Angle of every body at the start, radians about z.
-    pub(crate) angles: [f64; 7],
+    pub angles: [f64; 7],
     /// The joints of point F that close the three loops, in the order of the published multipliers:
     /// the bodies K2 (marker J) against K3, K4, K6 (marker I).
-    pub(crate) closing: [usize; 3],
+    pub closing: [usize; 3],
 }
 
 /// Angles of the seven bodies from the published coordinates β, Θ, γ, Φ, δ, Ω, ε; also rates.
-pub(crate) fn body_angles(q: &[f64]) -> [f64; 7] {
+#[must_use]
+pub fn body_angles(q: &[f64]) -> [f64; 7] {
     [
         q[0],
         q[0] + q[1],
@@ -30,7 +33,8 @@ pub(crate) fn body_angles(q: &[f64]) -> [f64; 7] {
 }
 
 /// The mechanism at its published start.
-pub(crate) fn andrews() -> Andrews {
+#[must_use]
+pub fn andrews() -> Andrews {
     let q0 = [
         -0.061_713_890_014_276_45,
         0.0,

@@ -8,7 +8,8 @@ use nalgebra::{Matrix3, Vector3};
 use crate::builder::{Builder, v};
 
 /// The load of a pin of the given radius by its reaction force alone.
-pub(crate) fn pin_load(pin_radius: f64, friction_arm: f64) -> FrictionJoint {
+#[must_use]
+pub fn pin_load(pin_radius: f64, friction_arm: f64) -> FrictionJoint {
     FrictionJoint::Revolute(RevoluteLoad {
         inputs: Inputs {
             bending_moment: false,
@@ -21,7 +22,8 @@ pub(crate) fn pin_load(pin_radius: f64, friction_arm: f64) -> FrictionJoint {
 }
 
 /// The load of a bearing: its reaction force, radial and axial, and its bending moment.
-pub(crate) fn bearing_load(
+#[must_use]
+pub fn bearing_load(
     pin_radius: f64,
     friction_arm: f64,
     bending_reaction_arm: f64,
@@ -37,19 +39,28 @@ pub(crate) fn bearing_load(
 /// 1 kg at `length` below a pin of radius `pin_radius`, swung out by `angle` about z and turning
 /// at `rate`; `inertia` is that of the centre of mass about z. The angle of the body is its
 /// rotation, so it starts at zero: the pendulum's angle is `angle` plus that.
-#[derive(Clone, Copy)]
-pub(crate) struct Pendulum {
-    pub(crate) length: f64,
-    pub(crate) pin_radius: f64,
-    pub(crate) inertia: f64,
-    pub(crate) gravity: f64,
-    pub(crate) angle: f64,
-    pub(crate) rate: f64,
-    pub(crate) law: Law,
+#[derive(Clone, Copy, Debug)]
+pub struct Pendulum {
+    /// From the pin to the centre of mass.
+    pub length: f64,
+    /// Radius of the pin.
+    pub pin_radius: f64,
+    /// Inertia about the centre of mass.
+    pub inertia: f64,
+    /// Acceleration of gravity.
+    pub gravity: f64,
+    /// Angle from hanging down at the start.
+    pub angle: f64,
+    /// Angular velocity at the start.
+    pub rate: f64,
+    /// The law of friction.
+    pub law: Law,
 }
 
 impl Pendulum {
-    pub(crate) fn model(&self) -> Model {
+    /// The pendulum with friction in its pin.
+    #[must_use]
+    pub fn model(&self) -> Model {
         let mut b = Builder::new(v(0.0, -self.gravity, 0.0));
         let centre = self.length * v(self.angle.sin(), -self.angle.cos(), 0.0);
         let body = b.body(1.0, [self.inertia; 3], centre);
@@ -61,7 +72,8 @@ impl Pendulum {
 }
 
 /// A rotor on a vertical axis that carries its weight on a collar of radius `friction_arm`.
-pub(crate) fn rotor(
+#[must_use]
+pub fn rotor(
     weight: f64,
     inertia: f64,
     pin_radius: f64,
@@ -79,7 +91,8 @@ pub(crate) fn rotor(
 
 /// B05: a rotor of 2 kg and 0.01 kg m² on a vertical axis, turning at 50 rad/s, that carries a mass
 /// of 0.3 kg at 0.05 m from the axis and `height` above the joint.
-pub(crate) fn unbalanced_rotor(height: f64, law: Original) -> Model {
+#[must_use]
+pub fn unbalanced_rotor(height: f64, law: Original) -> Model {
     let mut b = Builder::new(v(0.0, 0.0, -9.80665));
     let rotor = b.body(2.0, [0.01; 3], Vector3::zeros());
     let eccentric = b.body(0.3, [0.0; 3], v(0.05, 0.0, height));
@@ -101,11 +114,8 @@ pub(crate) fn unbalanced_rotor(height: f64, law: Original) -> Model {
 
 /// 1 kg with its centre 0.5 m below a ball joint, inertia about the centre (0.02, 0.02, 0.005) in
 /// part axes, tilted by `tilt` about x, turning with `rates` along part axes; g = 9.80665 m/s².
-pub(crate) fn ball_pendulum(
-    tilt: f64,
-    rates: Vector3<f64>,
-    ball: Option<(Original, f64)>,
-) -> Model {
+#[must_use]
+pub fn ball_pendulum(tilt: f64, rates: Vector3<f64>, ball: Option<(Original, f64)>) -> Model {
     let mut b = Builder::new(v(0.0, 0.0, -9.80665));
     let orientation = Quaternion::exp(&v(tilt, 0.0, 0.0));
     let turn = orientation.matrix();
