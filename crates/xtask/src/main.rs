@@ -1,0 +1,35 @@
+//! Commands of the project itself.
+//!
+//! `cargo xtask bench` measures the solver beside its peers and writes `docs/performance.md`;
+//! `cargo xtask bench andrews --no-peers` measures one case and prints it.
+#![allow(clippy::print_stdout, reason = "a program says what it measured")]
+
+mod bench;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Measure the solver, beside its peers where they can be had.
+    Bench(bench::Arguments),
+}
+
+fn main() -> ExitCode {
+    let Command::Bench(arguments) = Arguments::parse().command;
+    match bench::run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            println!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
