@@ -535,12 +535,12 @@ impl bdf::System for Dynamics {
         norm.max(self.switching.norm(&difference[self.state.share_range()]))
     }
 
-    fn judge(&mut self, step: &bdf::Step<'_>, _: &[f64], within: Within<'_>) -> Verdict {
+    fn judge(&mut self, step: &bdf::Step<'_>, values: &[f64], within: Within<'_>) -> Verdict {
         if self.switching.is_empty() {
             return Verdict::Accept;
         }
         let mut switching = std::mem::take(&mut self.switching);
-        let verdict = switching.judge(self, step, within);
+        let verdict = switching.judge(self, step, values, within);
         self.switching = switching;
         verdict
     }

@@ -15,7 +15,7 @@
 //! and looks where the argument leaves the cell.
 
 use super::{Binary, Input, Operation, Program, Register, Unary, select};
-use crate::scalar::Scalar;
+use crate::scalar::{Jet, Scalar};
 
 /// How a switch is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -299,9 +299,25 @@ impl Program {
         self.switching(switch).cell(argument)
     }
 
+    /// The argument of a switch with its rates along a motion.
+    pub(crate) fn argument_motion(
+        &self,
+        switch: usize,
+        jets: &mut [Jet],
+        read: impl Fn(Input) -> Jet,
+    ) -> Jet {
+        self.run(jets, read);
+        self.switching(switch).argument_value(|r| jets[r as usize])
+    }
+
+    /// Ends of a cell of a switch.
+    pub(crate) fn cell_ends(&self, switch: usize, cell: f64) -> (f64, f64) {
+        self.switching(switch).ends(cell)
+    }
+
     /// How far an argument is outside of a cell: negative within.
     pub(crate) fn outside_cell(&self, switch: usize, cell: f64, argument: f64) -> f64 {
-        let (first, last) = self.switching(switch).ends(cell);
+        let (first, last) = self.cell_ends(switch, cell);
         (first - argument).max(argument - last)
     }
 
@@ -374,7 +390,6 @@ impl Program {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scalar::Jet;
 
     /// One program for each function that jumps, of two measures x and y, with an argument that is
     /// not simply one of them.

@@ -54,7 +54,8 @@ impl System {
         }
     }
 
-    pub(super) fn evaluate_slopes(&mut self) {
+    /// Slopes of the measures by the motions of the bodies, at the instant evaluated last.
+    pub(crate) fn evaluate_slopes(&mut self) {
         for place in 0..self.model.measures.len() {
             let quantity = self.model.measures[place].quantity;
             if !self.needed[place] || quantity.order() == Order::Acceleration {

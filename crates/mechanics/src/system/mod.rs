@@ -48,7 +48,7 @@ use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
 pub(crate) use newton_matrix::Weights;
 use serde::{Deserialize, Serialize};
-pub(crate) use switches::{Reading, SwitchPlace, Units};
+pub(crate) use switches::{Course, Reading, SwitchPlace, Units};
 
 /// Which equations the constraint rows of the Newton matrix belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

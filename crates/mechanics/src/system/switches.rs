@@ -3,6 +3,7 @@
 use super::System;
 use crate::expression::{Branch, Input, Program};
 use crate::model::{Definition, DifferentialState, Element, Form, Label};
+use crate::scalar::Jet;
 
 /// Variables that read one another, one behind the other, through which units are followed.
 const NESTING: usize = 3;
@@ -40,6 +41,17 @@ pub(crate) struct Units<'a> {
     pub(crate) length: f64,
     pub(crate) rate: f64,
     pub(crate) states: &'a [f64],
+}
+
+/// How an instant goes on, beside the velocities.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course<'a> {
+    /// Accelerations, then rates of differential states.
+    pub(crate) rates: &'a [f64],
+    /// Rates of these.
+    pub(crate) rate_changes: &'a [f64],
+    /// Rates of the algebraic variables.
+    pub(crate) variable_rates: &'a [f64],
 }
 
 impl System {
@@ -133,6 +145,11 @@ impl System {
         program.switch_cell(place.switch, argument)
     }
 
+    /// Ends of a cell of a switch.
+    pub(crate) fn cell_ends(&self, place: SwitchPlace, cell: f64) -> (f64, f64) {
+        self.switch_program(place).cell_ends(place.switch, cell)
+    }
+
     /// How far an argument of a switch is outside of a cell: negative within.
     pub(crate) fn outside_cell(&self, place: SwitchPlace, cell: f64, argument: f64) -> f64 {
         let program = self.switch_program(place);
@@ -193,6 +210,44 @@ impl System {
             };
         }
         self.registers = registers;
+    }
+
+    /// The argument of a switch and its rate, at the instant evaluated last with its slopes; of the second
+    /// rate only what time and the curvature of the function make.
+    pub(crate) fn switch_motion(&mut self, place: SwitchPlace, course: &Course<'_>) -> Jet {
+        let mut jets = std::mem::take(&mut self.jets);
+        let program = self.switch_program(place);
+        let motion = program.argument_motion(place.switch, &mut jets, |input| Jet {
+            value: self.inputs.read(input),
+            rate: self.input_rate(input, course),
+            acceleration: 0.0,
+        });
+        self.jets = jets;
+        motion
+    }
+
+    fn input_rate(&self, input: Input, course: &Course<'_>) -> f64 {
+        let states = self.velocity_count();
+        match input {
+            Input::Time => 1.0,
+            Input::Measure(measure) => {
+                let motions = self.measure_bodies[measure]
+                    .iter()
+                    .zip(&self.measure_slopes[measure]);
+                let rate = |(&body, slopes): (&usize, &[f64; 12])| -> f64 {
+                    let frame = &self.bodies[body];
+                    let accelerations = &course.rates[6 * body..6 * body + 6];
+                    let rates = frame.velocity.iter().chain(&frame.omega);
+                    let rates = rates.chain(accelerations);
+                    slopes.iter().zip(rates).map(|(s, rate)| s * rate).sum()
+                };
+                motions.map(rate).sum()
+            }
+            Input::State(state) => course.rates[states + state],
+            Input::StateRate(state) => course.rate_changes[states + state],
+            Input::Algebraic(variable) => course.variable_rates[variable],
+            Input::Result(_) => 0.0,
+        }
     }
 
     /// How far the argument of a switch moves when what it reads moves by one unit each; zero where

@@ -125,6 +125,60 @@ fn a_square_wave_is_followed_from_corner_to_corner() {
 }
 
 #[test]
+fn oscillations_within_a_step_are_not_stepped_over() {
+    // Acceleration ±0.5: the velocity is a triangle of 200 Hz and stays below 0.00125, in steps that
+    // would be a hundred periods long.
+    let velocity = |t: f64| {
+        let t = t % 0.005;
+        0.5 * t.min(0.005 - t)
+    };
+    for wave in ["SIN(2*PI*200*TIME)", "COS(2*PI*200*(TIME-0.00125))"] {
+        for error in [1e-2, 1e-3, 1e-6] {
+            let text = block(
+                &force(&format!("SIGN(1, {wave})")),
+                &format!("SI2, ERROR={error:E}"),
+            );
+            let ran = run(&text, 1.0, 97);
+            assert!(ran.error("F3", velocity) < 1e-10, "{wave} {error}");
+            assert!(ran.report.statistics.steps.starts <= 402);
+        }
+    }
+    // A pulse of 1 ms between two points at which the argument has the same value; its first bend is
+    // all that tells of it.
+    let pulse = force("IF(ABS(TIME-0.612)-0.0005: 1000, 0, 0)");
+    for error in [1e-2, 1e-4, 1e-6] {
+        let ran = run(&block(&pulse, &format!("SI2, ERROR={error:E}")), 1.0, 10);
+        let velocity = |t: f64| if t < 0.612 { 0.0 } else { 0.5 };
+        assert!(ran.error("F3", velocity) < 1e-10, "{error}");
+    }
+}
+
+#[test]
+fn a_force_that_alternates_along_the_way_keeps_the_energy() {
+    // The force ∓0.1 N turns every 0.01 m: v² + 0.1 w = 1 with the way w since it was last -0.1 N,
+    // there and back.
+    let function = "-SIGN(0.1, SIN(2*PI*50*DZ(20, 1)))";
+    for formulation in BOTH {
+        for error in ERRORS {
+            // With a longest step, by which all is slow.
+            let integrator = format!("{formulation}, ERROR={error:E}, HMAX=1000");
+            let text = block(&force(function), &integrator).replace("MASS=2", "MASS=2, VZ=1");
+            let ran = run(&text, 2.0, 97);
+            let pairs = ran.column("F2").into_iter().zip(ran.column("F3")).skip(1);
+            let worst = pairs.fold(0.0_f64, |worst, (z, v)| {
+                let way = z.rem_euclid(0.02);
+                worst.max((v * v + 0.1 * way.min(0.02 - way) - 1.0).abs())
+            });
+            let counts = ran.report.statistics.steps;
+            println!("{integrator}: {worst:.1e}, {counts:?}");
+            // Two hundred steps, from jump to jump, that may each be off by the tolerance in v.
+            assert!(worst < 2.0 * 200.0 * error, "{worst:e}");
+            assert!((195..=205).contains(&counts.starts) && !ran.log.contains("chatter"));
+        }
+    }
+}
+
+#[test]
 fn saw_teeth_and_stairs_are_followed() {
     // A hundred teeth of 2 MOD(t, 0.01)/m = t mod 0.01.
     let saw = |t: f64| {

@@ -5,7 +5,7 @@ use numerics::bdf::{self, Verdict, Within};
 use super::Switching;
 use crate::dynamics::Dynamics;
 use crate::expression::Branch;
-use crate::system::{System, Units};
+use crate::system::System;
 
 /// Solutions for one jump, at most.
 const LOCATIONS: usize = 8;
@@ -22,37 +22,40 @@ const STILL: usize = 20;
 const ROOT: usize = 200;
 
 impl Switching {
-    /// Looks at a step that passed the error test and is evaluated at its end.
+    /// Looks at a step that passed the error test and is evaluated at its end, `values`.
     pub(in crate::dynamics) fn judge(
         &mut self,
         dynamics: &mut Dynamics,
         step: &bdf::Step<'_>,
+        values: &[f64],
         within: Within<'_>,
     ) -> Verdict {
         self.read(&mut dynamics.system);
-        if !self.any_left(&dynamics.system) {
+        let cut = self.located == Some(step.time);
+        let often = cut && self.locations >= LOCATIONS;
+        self.find_excursions(dynamics, step, values, within);
+        if often {
+            self.excursions.fill(None);
+        }
+        let excursion = self.excursions.iter().any(Option::is_some);
+        if !excursion && !self.any_left(&dynamics.system) {
             return Verdict::Accept;
         }
-        let cut = self.located == Some(step.time);
         let mut met = true;
         for k in 0..self.switches.len() {
             if self.left_for(k, &dynamics.system).is_none() {
+                // An excursion that is over at the end of the step.
+                met &= self.excursions[k].is_none();
                 continue;
             }
             let switch = &mut self.switches[k];
             switch.largest_jump = switch.largest_jump.max(self.readings[k].jump);
             if !switch.of_time {
-                let units = Units {
-                    length: dynamics.scales.length,
-                    rate: dynamics.scales.rate,
-                    states: &dynamics.state_scales,
-                };
-                let unit = dynamics.system.switch_unit(switch.place, &units);
-                switch.width = switch.widening * dynamics.tolerance * unit;
+                switch.width = switch.widening * dynamics.argument_error(switch.place);
             }
             let outside = switch.outside(&dynamics.system, self.readings[k].argument);
             let near = outside <= switch.tolerance();
-            met &= near || cut && (switch.of_time || self.locations >= LOCATIONS);
+            met &= near || often || cut && switch.of_time;
         }
         let start = step.time - step.size;
         let time = if met {
@@ -122,15 +125,17 @@ impl Switching {
     /// The first time within a step at which a switch is just behind its jump. What was read last is
     /// then of that time.
     fn locate(&mut self, dynamics: &mut Dynamics, step: &bdf::Step<'_>, within: Within<'_>) -> f64 {
-        self.rates[1].clone_from(&dynamics.change);
-        for rate in &mut self.rates[1] {
-            *rate /= step.gamma;
-        }
-        self.multipliers[1].clone_from(&dynamics.multipliers);
         let mut end = step.time;
         for k in 0..self.switches.len() {
-            if self.left_for(k, &dynamics.system).is_some() {
-                end = self.root(k, end, dynamics, step, within);
+            let start = step.time - step.size;
+            let (from, to) = match self.excursions[k] {
+                Some([from, to]) if to <= end => (from, to),
+                Some([from, _]) if from >= end => continue,
+                Some([from, _]) => (from, end),
+                None => (start, end),
+            };
+            if to < end || self.left_for(k, &dynamics.system).is_some() {
+                end = self.root(k, [from, to], dynamics, step, within);
                 self.evaluate(end, false, dynamics, step, within);
                 self.read(&mut dynamics.system);
             }
@@ -138,12 +143,12 @@ impl Switching {
         end
     }
 
-    /// A time before `end`, at which switch `k` has left its cell, at which it has just done so: by
-    /// false position (Illinois), with a bisection in between.
+    /// A time between two, at the second of which switch `k` has left its cell, at which it has just
+    /// done so: by false position (Illinois), with a bisection in between.
     fn root(
         &mut self,
         k: usize,
-        end: f64,
+        [from, to]: [f64; 2],
         dynamics: &mut Dynamics,
         step: &bdf::Step<'_>,
         within: Within<'_>,
@@ -161,7 +166,7 @@ impl Switching {
             let left = switch.left_for(&dynamics.system, argument).is_some();
             (switch.outside(&dynamics.system, argument), left)
         };
-        let (mut a, mut b) = (step.time - step.size, end);
+        let (mut a, mut b) = (from, to);
         let (mut fa, left) = outside(a, self);
         if left {
             return a;
@@ -201,8 +206,26 @@ impl Switching {
         b
     }
 
+    /// Keeps rates and reactions of the step that was solved last.
+    pub(super) fn keep_end(&mut self, dynamics: &Dynamics, step: &bdf::Step<'_>) {
+        self.rates[1].clear();
+        let rates = dynamics.change.iter().map(|change| change / step.gamma);
+        self.rates[1].extend(rates);
+        self.multipliers[1].clone_from(&dynamics.multipliers);
+        let [_, end, mixed] = &mut self.rates;
+        mixed.clone_from(end);
+        let rows = dynamics.system.row_count();
+        let slopes = |[start, end, _]: &[Vec<f64>; 3], first: usize, out: &mut Vec<f64>| {
+            out.clear();
+            let pairs = start.iter().zip(end).skip(first);
+            out.extend(pairs.map(|(a, b)| (b - a) / step.size));
+        };
+        slopes(&self.rates, 0, &mut self.changes[0]);
+        slopes(&self.multipliers, rows, &mut self.changes[1]);
+    }
+
     /// Evaluates the system at a time within a step; rates, reactions and variables change evenly.
-    fn evaluate(
+    pub(super) fn evaluate(
         &mut self,
         time: f64,
         time_alone: bool,
@@ -217,17 +240,20 @@ impl Switching {
         dynamics.state.time = time;
         within(time, &mut dynamics.state.values);
         dynamics.state.normalize();
+        self.load(1.0 - (step.time - time) / step.size, dynamics);
+    }
+
+    /// Evaluates the system at its state, with rates, reactions and variables of a part of the step.
+    pub(super) fn load(&mut self, part: f64, dynamics: &mut Dynamics) {
         dynamics.system.evaluate(&dynamics.state, false);
-        let left = (step.time - time) / step.size;
-        let mix = |[start, end]: &[Vec<f64>; 2], out: &mut [f64]| {
-            for (out, (start, end)) in out.iter_mut().zip(start.iter().zip(end)) {
-                *out = left * start + (1.0 - left) * end;
-            }
+        let mix = |[start, end, mixed]: &mut [Vec<f64>; 3]| {
+            mixed.clear();
+            let pairs = start.iter().zip(end.iter());
+            mixed.extend(pairs.map(|(start, end)| (1.0 - part) * start + part * end));
         };
-        mix(&self.rates, &mut dynamics.change);
-        mix(&self.multipliers, &mut dynamics.trial);
-        dynamics
-            .system
-            .set_solution(&dynamics.change, 1.0, &dynamics.trial);
+        mix(&mut self.rates);
+        mix(&mut self.multipliers);
+        let (rates, multipliers) = (&self.rates[2], &self.multipliers[2]);
+        dynamics.system.set_solution(rates, 1.0, multipliers);
     }
 }

@@ -15,6 +15,7 @@
 //!
 //! A switch that only bends its function, or less, is stepped over like any other bend.
 
+mod excursion;
 mod location;
 mod switch;
 
@@ -23,16 +24,18 @@ use numerics::bdf;
 use super::Dynamics;
 use crate::expression::{Branch, Sharing};
 use crate::model::Label;
+use crate::scalar::{Jet, Scalar};
 use crate::state::State;
-use crate::system::{Reading, System};
+use crate::system::{Reading, SwitchPlace, System, Units};
 use switch::Switch;
 
 /// A switch that turns back within so many widths has not left its jump,
 const NEAR: f64 = 4.0;
 /// and after so many times it is held there.
 const RETURNS: usize = 2;
-/// So many turns within a trial step make the width this many times larger: then rounding, not the
-/// motion, turns the switch over, or a jump so fast that nothing but its mean shows.
+/// So many turns within a trial step, none from farther than that, make the width this many times larger
+/// until the motion has been farther away: then rounding, not the motion, turns the switch over, or a
+/// jump so fast that nothing but its mean shows.
 const TURNS: usize = 20;
 const WIDENING: f64 = 10.0;
 /// Error of the share of a held switch that a step may make; it is that of the force as a part of its
@@ -71,9 +74,17 @@ pub(super) struct Switching {
     short: bool,
     /// Whether some are to be turned over now.
     due: bool,
-    /// Rates and multipliers at the beginning of the step, and at an instant within.
-    rates: [Vec<f64>; 2],
-    multipliers: [Vec<f64>; 2],
+    /// Rates and multipliers at the beginning of the step, at its end, and at an instant within; how
+    /// fast rates and variables change.
+    rates: [Vec<f64>; 3],
+    multipliers: [Vec<f64>; 3],
+    changes: [Vec<f64>; 2],
+    /// Arguments with their rates at the beginning of the step, where they are known, and at its end.
+    starts: Vec<Jet>,
+    starts_known: bool,
+    ends: Vec<Jet>,
+    /// Between which times each switch leaves its cell first.
+    excursions: Vec<Option<[f64; 2]>>,
     slidings: Vec<Sliding>,
 }
 
@@ -85,6 +96,10 @@ impl Switching {
             self.switches.push(Switch::new(place, system));
         }
         self.readings = vec![Reading::default(); self.switches.len()];
+        self.starts = vec![Jet::constant(0.0); self.switches.len()];
+        self.ends = self.starts.clone();
+        self.excursions = vec![None; self.switches.len()];
+        self.starts_known = false;
         self.due = false;
         self.still = 0;
     }
@@ -116,6 +131,7 @@ impl Switching {
     }
 
     fn set_branch(&mut self, k: usize, branch: Branch, system: &mut System) {
+        self.starts_known = false;
         self.switches[k].branch = branch;
         system.set_branch(self.switches[k].place, branch);
     }
@@ -135,9 +151,12 @@ impl Switching {
         self.locations = 0;
         self.still = 0;
         self.steps += 1;
+        self.starts.clone_from(&self.ends);
+        self.starts_known = true;
         for k in 0..self.switches.len() {
             let Reading { argument, jump } = self.readings[k];
             let switch = &mut self.switches[k];
+            switch.reach = switch.reach.max(switch.reach_within);
             switch.largest_jump = switch.largest_jump.max(jump);
             match switch.branch {
                 Branch::Free if system.switch_acts(switch.place) => {
@@ -175,7 +194,11 @@ impl Switching {
             };
             switch.turned = true;
             switch.turns += 1;
-            if time - switch.since > trial {
+            if switch.reach > NEAR * switch.width {
+                // The motion has been elsewhere: it, and nothing else, has come back.
+                (switch.since, switch.turns) = (time, 0);
+                switch.widening = 1.0;
+            } else if time - switch.since > trial {
                 (switch.since, switch.turns) = (time, 0);
             } else if switch.turns >= TURNS {
                 (switch.since, switch.turns) = (time, 0);
@@ -270,6 +293,7 @@ impl Switching {
     /// for those that were turned over or are at their jump.
     pub(super) fn hold(&mut self, system: &mut System, own: &mut System) {
         self.steps = 0;
+        self.starts_known = false;
         self.read(system);
         for k in 0..self.switches.len() {
             let switch = &mut self.switches[k];
@@ -309,6 +333,16 @@ impl Dynamics {
             let _ = bdf::System::solve(self, &step, &mut solved);
         }
         self.switching.shares(&solved[range])
+    }
+
+    /// Error of the argument of a switch that the tolerance allows.
+    fn argument_error(&mut self, place: SwitchPlace) -> f64 {
+        let units = Units {
+            length: self.scales.length,
+            rate: self.scales.rate,
+            states: &self.state_scales,
+        };
+        self.tolerance * self.system.switch_unit(place, &units)
     }
 
     /// A motion or constraint whose function jumps here.

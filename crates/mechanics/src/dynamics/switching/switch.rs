@@ -23,6 +23,8 @@ pub(super) struct Switch {
     pub(super) width: f64,
     /// How far within its cell it has been.
     pub(super) reach: f64,
+    /// The same within the present step.
+    pub(super) reach_within: f64,
     /// How often it has turned back within a few widths, one time after the other.
     pub(super) returns: usize,
     /// How much wider than the tolerance allows it is.
@@ -50,6 +52,7 @@ impl Switch {
             turned: false,
             width: 0.0,
             reach: 0.0,
+            reach_within: 0.0,
             returns: 0,
             widening: 1.0,
             turns: 0,
