@@ -19,6 +19,8 @@ const MASSLESS: f64 = 1e-13;
 const INFINITE: f64 = 1e6;
 /// Iterations for each row of the matrix before its eigenvalues are given up.
 const ITERATIONS: usize = 200;
+/// An eigenvalue has no further shape where this part of what an iteration finds is all that is new.
+const DEFECTIVE: f64 = 1e-6;
 /// Distance of the shift of the inverse iteration from its eigenvalue, relative.
 const NEAR: f64 = 1e-9;
 
@@ -194,7 +196,8 @@ impl Linearization {
         Ok(values.collect())
     }
 
-    /// The coordinates of a mode by inverse iteration, perpendicular to `others` of its eigenvalue.
+    /// The coordinates of a mode by inverse iteration, perpendicular to `others` of its eigenvalue unless it
+    /// has no further shape.
     fn vector(
         &self,
         value: Complex<f64>,
@@ -213,11 +216,17 @@ impl Linearization {
         let mut vector = DVector::from_fn(n, start);
         for _ in 0..3 {
             vector = factors.solve(&vector).ok_or(ModesError::NotConverged)?;
+            let whole = vector.clone();
             for other in others {
                 let part = other.dotc(&vector);
                 vector -= other * part;
             }
-            let size = vector.norm();
+            let mut size = vector.norm();
+            if size <= DEFECTIVE * whole.norm() {
+                // A free motion is the place and the velocity of one shape.
+                vector = whole;
+                size = vector.norm();
+            }
             if !(size > 0.0 && size.is_finite()) {
                 return Err(ModesError::NotConverged);
             }

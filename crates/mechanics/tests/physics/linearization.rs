@@ -285,6 +285,20 @@ fn a_free_body_has_zeros_only() {
     assert!(modes.iter().all(|mode| mode.value.norm() == 0.0));
 }
 
+/// A free mass on a rail goes on as it does: two zeros, of one shape.
+#[test]
+fn a_free_mass_has_one_shape_for_both_zeros() {
+    let mut b = Builder::new(Vector3::zeros());
+    slider(&mut b, 3.0, 0.5);
+    let modes = modes(b);
+    assert_eq!(modes.len(), 2);
+    for mode in modes {
+        assert_eq!(mode.value.norm(), 0.0);
+        let along: Vec<f64> = mode.shape.iter().map(|s| s.norm()).collect();
+        assert_eq!(along, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    }
+}
+
 /// Two masses on a free rail, coupled by a spring: `ω² = k (1/m₁ + 1/m₂)`, and two zeros.
 #[test]
 fn free_masses_move_together_and_against_one_another() {
