@@ -71,6 +71,8 @@ pub struct FrontalLu {
     /// the part in the pivot rows.
     factors: Vec<f64>,
     row_scale: Vec<f64>,
+    /// Units of the unknowns, from the first matrix on that had no pivot without them.
+    column_scale: Option<Vec<f64>>,
     /// The front in work, column by column.
     dense: Vec<f64>,
     /// Scales of its rows.
@@ -99,6 +101,7 @@ impl FrontalLu {
             columns: Vec::new(),
             factors: Vec::new(),
             row_scale: vec![1.0; n],
+            column_scale: None,
             dense: Vec::new(),
             scales: Vec::new(),
             places: Vec::new(),
@@ -136,6 +139,17 @@ impl FrontalLu {
             self.groups.len(),
             "every unknown must have a group"
         );
+        match self.attempt(matrix) {
+            Err(singular) => {
+                // Its units may be all that is wrong.
+                self.column_scale = Some(units(matrix));
+                self.attempt(matrix).map_err(|_| singular)
+            }
+            done => done,
+        }
+    }
+
+    fn attempt(&mut self, matrix: &Matrix) -> Result<(), Singular> {
         self.scale(matrix)?;
         let fronts = match self.fronts.take() {
             Some(fronts) => fronts,
@@ -183,6 +197,14 @@ impl FrontalLu {
                 let column = matrix.columns()[entries.start + bad.unwrap_or(0)] as usize;
                 return Err(Singular { row, column });
             }
+            let largest = match &self.column_scale {
+                None => largest,
+                Some(units) => {
+                    let columns = &matrix.columns()[entries];
+                    let scaled = values.iter().zip(columns);
+                    scaled.fold(0.0, |m: f64, (a, &c)| m.max(a.abs() * units[c as usize]))
+                }
+            };
             *scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         }
         Ok(())
@@ -330,7 +352,10 @@ impl FrontalLu {
                 .iter()
                 .zip(border_scales)
                 .map(|(v, scale)| v.abs() * scale);
-            let usable = largest > SMALLEST_PIVOT && sizes.all(|size| size <= least);
+            let unit = self.column_scale.as_ref().map_or(1.0, |units| {
+                units[self.columns[front.ids + column] as usize]
+            });
+            let usable = largest * unit > SMALLEST_PIVOT && sizes.all(|size| size <= least);
             usable.then_some((best, column))
         })
     }
@@ -387,6 +412,34 @@ impl FrontalLu {
             }
         }
     }
+}
+
+/// Units in which the unknowns of a matrix are of the same size: its masses become one, and its
+/// constraint equations and reactions, which have nothing on the diagonal, follow from the motions that
+/// they bind. The choice of the units of length, mass and time then makes no difference.
+fn units(matrix: &Matrix) -> Vec<f64> {
+    let n = matrix.size();
+    let row = |row: usize| {
+        let entries = matrix.row_starts()[row]..matrix.row_starts()[row + 1];
+        let columns = matrix.columns()[entries.clone()].iter();
+        columns
+            .map(|&column| column as usize)
+            .zip(&matrix.values()[entries])
+    };
+    let diagonal = |k: usize| -> f64 { row(k).filter(|(c, _)| *c == k).map(|(_, a)| a).sum() };
+    let motions: Vec<Option<f64>> = (0..n)
+        .map(|k| Some(diagonal(k).abs().sqrt().recip()).filter(|unit| unit.is_finite()))
+        .collect();
+    let bound = |k: usize| {
+        let largest = row(k).fold(0.0, |m: f64, (column, a)| {
+            m.max(a.abs() * motions[column].unwrap_or(0.0))
+        });
+        if largest > 0.0 { largest.recip() } else { 1.0 }
+    };
+    let units = motions.iter().enumerate();
+    units
+        .map(|(k, unit)| unit.unwrap_or_else(|| bound(k)))
+        .collect()
 }
 
 /// The largest magnitude, and not a number where a value is not finite; in four lanes, which the

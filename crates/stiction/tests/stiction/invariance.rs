@@ -194,3 +194,86 @@ fn units_of_length_do_not_matter() {
         assert!(error <= 1e-7 * peak, "{name}");
     }
 }
+
+/// A double pendulum in space of the given masses (kg), in units of which a metre and a kilogram have so
+/// many.
+fn pendulums([first, second]: [f64; 2], metre: f64, kilogram: f64) -> String {
+    let body = |mass: f64| {
+        let inertia = |kg_m2: f64| mass * kilogram * kg_m2 * metre * metre;
+        format!(
+            "MASS={:E}, IP={:E}, {:E}, {:E}",
+            mass * kilogram,
+            inertia(1e-7),
+            inertia(8.34e-4),
+            inertia(8.34e-4)
+        )
+    };
+    // The units are not named, so that the numbers alone say which they are.
+    format!(
+        "Two bars in space
+ACCGRAV/KGRAV={:E}
+PART/1, GROUND
+MARKER/1, PART=1, REULER=0, 90D, 0
+PART/2, CM=20, {}
+MARKER/20, PART=2, QP={:E}, 0, 0
+MARKER/21, PART=2, REULER=0, 90D, 0
+MARKER/22, PART=2, QP={:E}, 0, 0, REULER=0, 60D, 0
+PART/3, CM=30, {}, QG={:E}, 0, 0
+MARKER/30, PART=3, QP={:E}, 0, 0
+MARKER/31, PART=3, REULER=0, 60D, 0
+JOINT/1, REVOLUTE, I=21, J=1
+JOINT/2, REVOLUTE, I=31, J=22
+REQUEST/1, F2=AZ(21, 1)\\F3=AZ(31, 22)
+INTEGRATOR/GSTIFF, SI2, ERROR=1E-6
+END
+",
+        -9.81 * metre,
+        body(first),
+        0.05 * metre,
+        0.1 * metre,
+        body(second),
+        0.1 * metre,
+        0.05 * metre,
+    )
+}
+
+/// The steps that are taken are the same whatever the units and whatever all masses are multiplied by.
+#[test]
+fn masses_of_any_magnitude_take_the_same_steps() {
+    let end = |text: &str| {
+        let results = run_text(text, 2.0, 40, None);
+        let angles = ["F2", "F3"].map(|c| series(&results, &format!("REQUEST_1.{c}")));
+        angles.concat()
+    };
+    let worst = |a: &[f64], b: &[f64]| {
+        let pairs = a.iter().zip(b);
+        pairs.fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()))
+    };
+    let usual = end(&pendulums([1.0; 2], 1.0, 1.0));
+    let scales = [
+        (1e6, 1.0, 1.0),
+        (1e-6, 1.0, 1.0),
+        (1e-12, 1.0, 1.0),
+        (1e-14, 1.0, 1.0),
+        (1.0, 1e3, 1.0),
+        (1.0, 1e6, 1.0),
+        (1e-9, 1.0, 1e-3),
+        (1e-9, 1e3, 1e-3),
+        (1e-12, 1e6, 1e6),
+    ];
+    for (mass, metre, kilogram) in scales {
+        let other = end(&pendulums([mass; 2], metre, kilogram));
+        let off = worst(&usual, &other);
+        println!("mass {mass:e} kg, metre {metre:e}, kilogram {kilogram:e}: {off:.1e}");
+        // Rounding of 1e-16 over some hundred steps of a motion that makes it grow tenfold; another step
+        // would differ by the tolerance.
+        assert!(off < 1e-10);
+    }
+    // A part that is a million times lighter than the other, and all of it tiny.
+    let light = end(&pendulums([1.0, 1e-6], 1.0, 1.0));
+    let tiny = end(&pendulums([1e-9, 1e-15], 1.0, 1.0));
+    let off = worst(&light, &tiny);
+    println!("one of a millionth: {off:.1e}");
+    // A thousand steps of a light one that is thrown about, in which rounding grows a millionfold.
+    assert!(off < 1e-8);
+}
