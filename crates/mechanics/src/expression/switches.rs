@@ -27,6 +27,8 @@ pub(crate) enum Branch {
     Held(f64),
     /// Between two cells.
     Shared(Sharing),
+    /// Stairs as the line through the middle of them.
+    Even,
 }
 
 /// A switch between two cells: `(1 − s) f_lower + s f_upper` with `s = share + steepness (x − boundary)`
@@ -83,6 +85,19 @@ impl Operation {
                 | Self::Unary(Unary::Truncate | Unary::Round, _)
                 | Self::Binary(Binary::Sign | Binary::Modulo, ..)
         )
+    }
+
+    fn is_stairs(self) -> bool {
+        self.jumps() && !matches!(self, Self::If(..) | Self::Binary(Binary::Sign, ..))
+    }
+
+    /// What the cells are on the whole at an argument, and its slope.
+    fn even_cell(self, x: f64) -> (f64, f64) {
+        match self {
+            Self::Unary(Unary::Round, _) => (x, 1.0),
+            _ if x.abs() <= 0.5 => (0.0, 0.0),
+            _ => (x - 0.5 * x.signum(), 1.0),
+        }
     }
 
     /// The register of the argument and, where there is one, that of its divisor.
@@ -188,6 +203,15 @@ impl Operation {
     fn branch_value<T: Scalar>(self, branch: Branch, at: impl Fn(Register) -> T + Copy) -> T {
         match branch {
             Branch::Held(cell) => self.in_cell(cell, at),
+            Branch::Even => {
+                let argument = self.argument_value(at);
+                let (cell, slope) = self.even_cell(argument.value());
+                let cell = argument.chain(cell, slope, 0.0);
+                match self.argument() {
+                    (x, Some(y)) => at(x) - at(y) * cell,
+                    _ => cell,
+                }
+            }
             Branch::Shared(sharing) => {
                 let argument = self.argument_value(at);
                 let share = argument.chain(sharing.at(argument.value()), sharing.steepness, 0.0);
@@ -210,6 +234,17 @@ impl Operation {
                 self.cell_slopes(self.cell(self.argument_value(at)), at, add);
             }
             Branch::Held(cell) => self.cell_slopes(cell, at, add),
+            Branch::Even => {
+                let x = self.argument_value(at);
+                let (cell, slope) = self.even_cell(x);
+                match self.argument() {
+                    (a, Some(b)) => {
+                        add(a, 1.0 - slope);
+                        add(b, slope * x - cell);
+                    }
+                    (a, None) => add(a, slope),
+                }
+            }
             Branch::Shared(sharing) => {
                 let share = sharing.at(self.argument_value(at));
                 self.cell_slopes(sharing.lower, at, |r, slope| add(r, (1.0 - share) * slope));
@@ -363,6 +398,35 @@ impl Program {
 
     /// Whether the argument of a switch depends on nothing but time.
     pub(crate) fn is_switch_of_time(&self, switch: usize) -> bool {
+        self.argument_inputs(switch)
+            .all(|input| input == Input::Time)
+    }
+
+    pub(crate) fn is_stairs(&self, switch: usize) -> bool {
+        self.switching(switch).is_stairs()
+    }
+
+    /// Whether the argument of another switch depends on a switch.
+    pub(crate) fn feeds_switch(&self, switch: usize) -> bool {
+        let place = self.switches[switch].place;
+        let others = switch + 1..self.switches.len();
+        others
+            .into_iter()
+            .any(|other| self.argument_needs(other)[place])
+    }
+
+    /// What the argument of a switch reads.
+    pub(crate) fn argument_inputs(&self, switch: usize) -> impl Iterator<Item = Input> + '_ {
+        let needed = self.argument_needs(switch);
+        let operations = self.operations.iter().zip(needed);
+        operations.filter_map(|(operation, needed)| match operation {
+            Operation::Input(input) if needed => Some(*input),
+            _ => None,
+        })
+    }
+
+    /// Whether the argument of a switch depends on each operation before it.
+    fn argument_needs(&self, switch: usize) -> Vec<bool> {
         let place = self.switches[switch].place;
         let mut needed = vec![false; place];
         let (x, y) = self.switching(switch).argument();
@@ -373,17 +437,11 @@ impl Program {
             if !needed[k] {
                 continue;
             }
-            match self.operations[k] {
-                Operation::Input(Input::Time) => {}
-                Operation::Input(_) => return false,
-                operation => {
-                    for r in operation.reads().into_iter().flatten() {
-                        needed[r as usize] = true;
-                    }
-                }
+            for r in self.operations[k].reads().into_iter().flatten() {
+                needed[r as usize] = true;
             }
         }
-        true
+        needed
     }
 }
 
@@ -415,7 +473,7 @@ mod tests {
         made
     }
 
-    fn branches() -> [Branch; 4] {
+    fn branches() -> [Branch; 5] {
         let sharing = |share, steepness| {
             Branch::Shared(Sharing {
                 lower: -1.0,
@@ -430,6 +488,7 @@ mod tests {
             Branch::Held(1.0),
             sharing(0.3, 0.0),
             sharing(0.5, 4.0),
+            Branch::Even,
         ]
     }
 

@@ -122,6 +122,33 @@ impl System {
         matches!(place.host, Host::Constraint(_) | Host::Motion(_))
     }
 
+    /// Whether a switch jumps again and again as its argument goes on.
+    pub(crate) fn is_stairs(&self, place: SwitchPlace) -> bool {
+        self.switch_program(place).is_stairs(place.switch)
+    }
+
+    /// Whether the jump of a switch shows in the motion and the differential states alone, in no other
+    /// switch.
+    pub(crate) fn switch_may_be_dull(&self, place: SwitchPlace) -> bool {
+        let hidden = |input: Input| matches!(input, Input::Algebraic(_) | Input::StateRate(_));
+        let read = |other: &SwitchPlace| {
+            let program = self.switch_program(*other);
+            program.argument_inputs(other.switch).any(hidden)
+        };
+        matches!(place.host, Host::Force(_) | Host::State(_))
+            && !self.switch_program(place).feeds_switch(place.switch)
+            && !self.switches().iter().any(read)
+    }
+
+    /// A cell of a switch and the next one above it, or the two that there are.
+    pub(crate) fn switch_neighbours(&self, place: SwitchPlace, cell: f64) -> [f64; 2] {
+        if self.is_stairs(place) {
+            [cell, cell + 1.0]
+        } else {
+            [-1.0, 1.0]
+        }
+    }
+
     /// The element of a switch.
     pub(crate) fn switch_label(&self, place: SwitchPlace) -> &Label {
         let model = &self.model;

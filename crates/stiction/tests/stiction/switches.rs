@@ -179,6 +179,57 @@ fn a_force_that_alternates_along_the_way_keeps_the_energy() {
 }
 
 #[test]
+fn jumps_that_nothing_can_be_told_of_cost_nothing() {
+    // A thousand million teeth are their mean, a hundred thousand stairs their slope: v = t/4, v = t²/4.
+    let tests: [(&str, fn(f64) -> f64); 3] = [
+        ("MOD(1E9*TIME, 1)", |t| 0.25 * t),
+        ("ANINT(1E5*TIME)/1E5", |t| 0.25 * t * t),
+        ("TIME + SIGN(1E-9, SIN(1000*TIME))", |t| 0.25 * t * t),
+    ];
+    for (function, velocity) in tests {
+        for formulation in BOTH {
+            for error in [1e-3, 1e-5] {
+                let integrator = format!("{formulation}, ERROR={error:E}");
+                let ran = run(&block(&force(function), &integrator), 1.0, 50);
+                let worst = ran.error("F3", velocity);
+                println!(
+                    "{function}, {integrator}: {worst:.1e}, {} steps",
+                    ran.steps()
+                );
+                // A hundred steps, each off by a tenth of the tolerance where a jump is passed over.
+                assert!(worst < 10.0 * error);
+                assert!(ran.steps() < 200);
+                assert!(ran.report.statistics.steps.starts < 5);
+            }
+        }
+    }
+    // A spring of 100 N/m whose place comes in 12 bits: ω² = 50.
+    let spring = force("-100*ANINT(4096*DZ(20, 1))/4096");
+    let text = block(&spring, "SI2, ERROR=1E-3").replace("MASS=2", "MASS=2, VZ=1");
+    let ran = run(&text, 1.0, 50);
+    let omega = 50.0_f64.sqrt();
+    // Fifty steps of an error of 1e-3.
+    let place = ran.column("F2").into_iter().skip(1);
+    let times = ran.results.get("time.TIME").unwrap().into_iter().skip(1);
+    let worst = times.zip(place).fold(0.0_f64, |worst, (t, z)| {
+        worst.max((z - (omega * t).sin() / omega).abs())
+    });
+    assert!(
+        worst < 1e-2 && ran.steps() < 200,
+        "{worst:e} {}",
+        ran.steps()
+    );
+    // What another switch reads is met however small it is in the motion.
+    let gate = force("IF(MOD(TIME, 0.1) - 0.05: 0, 0, 4)");
+    let ran = run(&block(&gate, "SI2, ERROR=1E-2"), 1.0, 50);
+    let velocity = |t: f64| {
+        let n = (t / 0.1 + 1e-12).floor();
+        0.1 * n + 2.0 * (t - 0.1 * n - 0.05).max(0.0)
+    };
+    assert!(ran.error("F3", velocity) < 1e-9);
+}
+
+#[test]
 fn saw_teeth_and_stairs_are_followed() {
     // A hundred teeth of 2 MOD(t, 0.01)/m = t mod 0.01.
     let saw = |t: f64| {

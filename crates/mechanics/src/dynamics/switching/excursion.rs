@@ -114,7 +114,7 @@ impl Switching {
         for k in 0..self.switches.len() {
             let found = match self.switches[k].branch {
                 Branch::Held(_) => self.first_excursion(k, dynamics, step, within, &mut moved),
-                Branch::Free | Branch::Shared(_) => None,
+                Branch::Free | Branch::Shared(_) | Branch::Even => None,
             };
             self.excursions[k] = found;
         }

@@ -31,12 +31,17 @@ impl Switching {
         within: Within<'_>,
     ) -> Verdict {
         self.read(&mut dynamics.system);
+        self.switches.iter_mut().for_each(|s| s.passed_over = false);
         let cut = self.located == Some(step.time);
         let often = cut && self.locations >= LOCATIONS;
         self.find_excursions(dynamics, step, values, within);
         if often {
             self.excursions.fill(None);
         }
+        if !cut && self.pass_over(dynamics, step) {
+            return Verdict::EndAt(step.time);
+        }
+        self.look_at_lines(dynamics);
         let excursion = self.excursions.iter().any(Option::is_some);
         if !excursion && !self.any_left(&dynamics.system) {
             return Verdict::Accept;

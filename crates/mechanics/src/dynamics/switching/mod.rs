@@ -13,8 +13,10 @@
 //! becomes a straight transition from one width before it to one behind, which an implicit step
 //! takes as it is. The motion leaves where the share of one side has come to zero.
 //!
-//! A switch that only bends its function, or less, is stepped over like any other bend.
+//! A switch that only bends its function, or less, is stepped over like any other bend; one whose jump
+//! cannot be told from the error of a step, too (`effect.rs`).
 
+mod effect;
 mod excursion;
 mod location;
 mod switch;
@@ -158,7 +160,12 @@ impl Switching {
             let switch = &mut self.switches[k];
             switch.reach = switch.reach.max(switch.reach_within);
             switch.largest_jump = switch.largest_jump.max(jump);
+            let passed_over = std::mem::take(&mut switch.passed_over);
             match switch.branch {
+                Branch::Held(_) if passed_over => {
+                    let cell = system.switch_cell(switch.place, argument);
+                    self.set_branch(k, Branch::Held(cell), system);
+                }
                 Branch::Free if system.switch_acts(switch.place) => {
                     let cell = system.switch_cell(switch.place, argument);
                     self.set_branch(k, Branch::Held(cell), system);
@@ -167,7 +174,7 @@ impl Switching {
                     let within = -system.outside_cell(switch.place, cell, argument);
                     switch.reach = switch.reach.max(within);
                 }
-                Branch::Free | Branch::Shared(_) => {}
+                Branch::Free | Branch::Shared(_) | Branch::Even => {}
             }
         }
     }
@@ -247,7 +254,7 @@ impl Switching {
         {
             *share = match switch.branch {
                 Branch::Shared(sharing) => sharing.at(reading.argument),
-                Branch::Free | Branch::Held(_) => 0.0,
+                Branch::Free | Branch::Held(_) | Branch::Even => 0.0,
             };
         }
     }
@@ -256,7 +263,7 @@ impl Switching {
     fn shares(&self, shares: &[f64]) -> Vec<f64> {
         let share = |(switch, share): (&Switch, &f64)| match switch.branch {
             Branch::Shared(_) => share.clamp(0.0, 1.0),
-            Branch::Free | Branch::Held(_) => 0.0,
+            Branch::Free | Branch::Held(_) | Branch::Even => 0.0,
         };
         self.switches.iter().zip(shares).map(share).collect()
     }

@@ -1,5 +1,6 @@
 //! One switch while its model is integrated.
 
+use super::effect::Effect;
 use crate::expression::Branch;
 use crate::system::{SwitchPlace, System};
 
@@ -14,6 +15,14 @@ pub(super) struct Switch {
     pub(super) of_time: bool,
     /// Whether a bend of it, too, is to be met.
     pub(super) constrains: bool,
+    /// Whether it jumps again and again.
+    pub(super) stairs: bool,
+    /// Whether nothing but the motion shows its jump.
+    pub(super) may_be_dull: bool,
+    /// Whether its jump in the present step does nothing that counts.
+    pub(super) passed_over: bool,
+    /// What its jumps did when it became a line.
+    pub(super) effect: Option<Effect>,
     pub(super) branch: Branch,
     /// The cell that it goes to after the present step.
     pub(super) target: Option<f64>,
@@ -43,6 +52,10 @@ impl Switch {
             place,
             of_time: system.is_switch_of_time(place),
             constrains: system.switch_constrains(place),
+            stairs: system.is_stairs(place),
+            may_be_dull: system.switch_may_be_dull(place),
+            passed_over: false,
+            effect: None,
             branch: if system.switch_acts(place) {
                 Branch::Held(0.0)
             } else {
@@ -64,7 +77,7 @@ impl Switch {
     /// How far it is outside of its cell.
     pub(super) fn outside(&self, system: &System, argument: f64) -> f64 {
         match self.branch {
-            Branch::Free => f64::NEG_INFINITY,
+            Branch::Free | Branch::Even => f64::NEG_INFINITY,
             Branch::Held(cell) => system.outside_cell(self.place, cell, argument),
             Branch::Shared(sharing) => {
                 ((sharing.at(argument) - 0.5).abs() - 0.5) / sharing.steepness
@@ -75,7 +88,8 @@ impl Switch {
     /// The cell that it has left its own for.
     pub(super) fn left_for(&self, system: &System, argument: f64) -> Option<f64> {
         match self.branch {
-            Branch::Free => None,
+            Branch::Free | Branch::Even => None,
+            Branch::Held(_) if self.passed_over => None,
             Branch::Held(cell) => {
                 let now = system.switch_cell(self.place, argument);
                 // The point of an IF at which its argument is zero is on the way to the other side.
@@ -97,7 +111,7 @@ impl Switch {
     pub(super) fn tolerance(&self) -> f64 {
         match self.branch {
             Branch::Shared(sharing) => LEAVING / sharing.steepness,
-            Branch::Held(_) | Branch::Free => self.width,
+            Branch::Held(_) | Branch::Free | Branch::Even => self.width,
         }
     }
 }
