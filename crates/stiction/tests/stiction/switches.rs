@@ -181,7 +181,8 @@ fn a_force_that_alternates_along_the_way_keeps_the_energy() {
 #[test]
 fn jumps_that_nothing_can_be_told_of_cost_nothing() {
     // A thousand million teeth are their mean, a hundred thousand stairs their slope: v = t/4, v = t²/4.
-    let tests: [(&str, fn(f64) -> f64); 3] = [
+    type Velocity = fn(f64) -> f64;
+    let tests: [(&str, Velocity); 3] = [
         ("MOD(1E9*TIME, 1)", |t| 0.25 * t),
         ("ANINT(1E5*TIME)/1E5", |t| 0.25 * t * t),
         ("TIME + SIGN(1E-9, SIN(1000*TIME))", |t| 0.25 * t * t),
