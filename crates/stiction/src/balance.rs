@@ -57,6 +57,10 @@ pub struct EnergyBalance {
     /// the kinetic energy, the potential energy, and the works of forces, of motions and of friction
     /// changed from one output to the next. It grows with the length of a run, as does the error.
     pub exchanged: f64,
+    /// Energy that the parts have at velocities of the size of the error tolerance, from which none can
+    /// be told.
+    #[serde(default)]
+    pub error: f64,
 }
 
 impl EnergyBalance {
@@ -86,7 +90,8 @@ impl EnergyBalance {
         let present = terms.map(|term| term.start.abs().max(term.end.abs()));
         let present = present.into_iter().fold(0.0, f64::max);
         let residual = self.residual().abs();
-        residual > SUSPICIOUS * self.exchanged && residual > ROUNDING * present
+        let floor = self.error.max(ROUNDING * present);
+        residual > SUSPICIOUS * self.exchanged && residual > floor
     }
 }
 
@@ -171,8 +176,8 @@ impl EnergyAccount {
         self.last = None;
     }
 
-    /// The start of a dynamic simulation.
-    pub(crate) fn begin(&mut self, wrenches: &Wrenches<'_>) {
+    /// The start of a dynamic simulation whose velocities may be off by `error`.
+    pub(crate) fn begin(&mut self, wrenches: &Wrenches<'_>, error: f64) {
         let sums = self.take(wrenches);
         let stored = self.stored();
         self.last = Some(sums);
@@ -181,13 +186,16 @@ impl EnergyAccount {
             end: start,
             change: 0.0,
         };
-        self.balance.get_or_insert_with(|| EnergyBalance {
+        let balance = self.balance.get_or_insert_with(|| EnergyBalance {
             unit: self.unit.clone(),
             kinetic: term(sums[0]),
             weight: term(sums[1]),
             stored: term(stored),
             ..EnergyBalance::default()
         });
+        let bodies = wrenches.snapshot().model().bodies.iter();
+        let mass: f64 = bodies.map(|body| body.mass).sum();
+        balance.error = balance.error.max(0.5 * mass * error * error);
     }
 
     /// An output; counts within a dynamic simulation only.

@@ -123,14 +123,16 @@ impl<W: Write> Recorder<W> {
             .map_err(|error| self.files.res_error(&error))
     }
 
-    /// Begins the rows of a dynamic or kinematic simulation that starts at this instant.
+    /// Begins the rows of a dynamic or kinematic simulation that starts at this instant, whose
+    /// velocities may be off by `error`.
     pub(crate) fn begin_motion(
         &mut self,
         kind: DataKind,
         snapshot: &Snapshot<'_>,
+        error: f64,
     ) -> Result<(), OutputError> {
         self.begin(kind)?;
-        self.account.begin(&Wrenches::new(snapshot));
+        self.account.begin(&Wrenches::new(snapshot), error);
         Ok(())
     }
 

@@ -460,8 +460,9 @@ impl<'a> Runner<'a> {
         );
         let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
         self.log.begin(kind, &choice.settings, &notes, start)?;
+        let velocity = choice.settings.error * self.length / second(&self.dataset);
         self.recorder
-            .begin_motion(kind, &self.simulation.snapshot())?;
+            .begin_motion(kind, &self.simulation.snapshot(), velocity)?;
         let times = span.outputs(start);
         let mut times = times.as_slice();
         let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);

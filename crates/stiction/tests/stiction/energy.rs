@@ -209,6 +209,25 @@ SIMULATE/DYNAMIC, DURATION=0.5, STEPS=50
     assert!(balance.residual_share() < 1e-6, "{balance}");
 }
 
+/// Where no velocity can be told from the tolerance, nothing is missing.
+#[test]
+fn energies_of_the_size_of_the_error_are_none() {
+    let model = "A mass that trembles
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=2, CM=20, IP=1, 1, 1
+MARKER/20, PART=2
+JOINT/1, TRANSLATIONAL, I=20, J=1
+SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=SIGN(1, SIN(2*PI*200*TIME))
+";
+    // At every output it is at rest.
+    let commands = "\nINTEGRATOR/GSTIFF, SI2, ERROR=1E-3\nSIMULATE/DYNAMIC, END=1, STEPS=10\n";
+    let run = run_commands(model, commands);
+    assert!(run.report.balance.unwrap().residual_share() > 1e-3);
+    assert_eq!(run.report.warnings, 0, "{}", run.messages);
+}
+
 /// A motion works on what it moves, at whichever level it is prescribed.
 #[test]
 fn motions_of_every_level_do_work() {
