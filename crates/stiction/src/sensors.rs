@@ -109,13 +109,23 @@ impl Sensors {
 
     /// The events that begin at an instant. One of EQ is also that the function has passed VALUE
     /// since the output before; none is told again while it lasts.
-    pub(crate) fn events(&mut self, wrenches: &Wrenches<'_>) -> Vec<Event> {
+    ///
+    /// # Errors
+    /// What to say of a function that is not a number, which no comparison holds for.
+    pub(crate) fn events(&mut self, wrenches: &Wrenches<'_>) -> Result<Vec<Event>, String> {
         let snapshot = wrenches.snapshot();
         let mut events = Vec::new();
         for watched in &mut self.watched {
             let sensor = &watched.sensor;
             let results = |number: usize| self.outputs.results[number].value(wrenches);
             let function = snapshot.evaluate(&watched.function, &results);
+            if function.is_nan() {
+                return Err(format!(
+                    "SENSOR/{} at time {}: its function is not a number",
+                    sensor.header.id,
+                    snapshot.time()
+                ));
+            }
             let difference = function - sensor.value;
             let holds = match sensor.comparison {
                 Comparison::GreaterOrEqual => difference >= -sensor.error,
@@ -135,7 +145,7 @@ impl Sensors {
             }
             watched.held = holds;
         }
-        events
+        Ok(events)
     }
 }
 
@@ -182,7 +192,14 @@ impl<W: Write> Observer for Sensing<'_, '_, W> {
         if !self.rows.output(&wrenches) {
             return false;
         }
-        for event in self.sensors.events(&wrenches) {
+        let events = match self.sensors.events(&wrenches) {
+            Ok(events) => events,
+            Err(text) => {
+                self.rows.stop = Some(Stop::NotFinite(text));
+                return false;
+            }
+        };
+        for event in events {
             let told = if event.keeps.is_some_and(|(_, value)| !value.is_finite()) {
                 Err(Stop::NotFinite(format!(
                     "{}: EVALUATE gives no finite number",

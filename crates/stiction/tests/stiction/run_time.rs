@@ -311,6 +311,18 @@ fn sensors_end_simulations_and_runs() {
     let event = format!("SENSOR/4 at time {ended}");
     assert!(returned.messages.contains(&event), "{}", returned.messages);
 
+    // What is not a number is neither above nor below.
+    let unknown = run_commands(
+        &sensor("GE, VALUE=1, ERROR=1E-6, RETURN, FUNCTION=SQRT(0.5-TIME)"),
+        commands,
+    );
+    assert!(matches!(
+        unknown.report.outcome,
+        Outcome::IntegrationFailed(_)
+    ));
+    let said = "SENSOR/4 at time 0.51: its function is not a number";
+    assert!(unknown.messages.contains(said), "{}", unknown.messages);
+
     // The first simulation may be taken up again to its own end.
     let again = run_commands(
         &sensor("GE, VALUE=1, ERROR=1E-6, RETURN, FUNCTION=VZ(20)"),
