@@ -1,6 +1,6 @@
 //! The list of scalar constraint equations that a model's joints, motions and functions make.
 
-use crate::equation::{Axis, Equation, Local, LocalMatrix};
+use crate::equation::{Axis, Equation, Local};
 use crate::expression::Input;
 use crate::model::{Element, JointKind, Level, Model, MotionFreedom};
 use serde::{Deserialize, Serialize};
@@ -60,16 +60,13 @@ pub(crate) struct Evaluated {
     pub(crate) error: f64,
     /// Rate that it prescribes for `G u`.
     pub(crate) rate: f64,
-    /// Value that it prescribes for `G u̇`.
-    pub(crate) acceleration: f64,
+    /// Value that it prescribes for `G u̇`, for a pair without the part `Ġ u` of its markers: see
+    /// [`crate::system::System::prescribed_acceleration`].
+    pub(crate) unbiased_acceleration: f64,
     /// `G` by body, in the order of [`Constraint::bodies`].
     pub(crate) jacobian: Vec<[f64; 6]>,
-    /// `∂(G u)/∂x` by body; evaluated with the Jacobian only.
-    pub(crate) rate_change: Vec<[f64; 6]>,
     /// `G` over the local motions of its two markers, for a pair.
     pub(crate) local: Local,
-    /// `∂(Gᵀ)/∂x` over the same; evaluated with the Jacobian only.
-    pub(crate) stiffness: LocalMatrix,
 }
 
 impl Evaluated {
@@ -77,11 +74,9 @@ impl Evaluated {
         Self {
             error: 0.0,
             rate: 0.0,
-            acceleration: 0.0,
+            unbiased_acceleration: 0.0,
             jacobian: vec![[0.0; 6]; bodies],
-            rate_change: vec![[0.0; 6]; bodies],
             local: Local::zeros(),
-            stiffness: LocalMatrix::zeros(),
         }
     }
 

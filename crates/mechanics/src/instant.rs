@@ -236,9 +236,9 @@ impl Instant {
             self.right[k] = self.force[k] - self.momentum[k];
         }
         for (row, &place) in system.rows.iter().enumerate() {
-            let evaluated = &system.evaluated[place];
             let bodies = &system.constraints[place].bodies;
-            self.right[n + row] = evaluated.acceleration - evaluated.rate_of(bodies, accelerations);
+            let rate = system.evaluated[place].rate_of(bodies, accelerations);
+            self.right[n + row] = system.prescribed_acceleration(place) - rate;
         }
         let first = n + system.row_count();
         system.algebraic_residual(multipliers, &mut self.right[first..]);
@@ -327,7 +327,7 @@ impl System {
         let (joints, others): (Vec<_>, Vec<_>) =
             constraints.partition(|(constraint, _)| matches!(constraint.owner, Owner::Joint(_)));
         for (constraint, evaluated) in others.into_iter().chain(joints) {
-            let sum = evaluated.error + evaluated.rate + evaluated.acceleration;
+            let sum = evaluated.error + evaluated.rate + evaluated.unbiased_acceleration;
             if !sum.is_finite() {
                 return Some(self.owner_label(constraint.owner).clone());
             }

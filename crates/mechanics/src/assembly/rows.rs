@@ -2,7 +2,7 @@
 
 use super::report::Unmet;
 use crate::constraint::{Evaluated, Form, name};
-use crate::equation::{Axis, Equation};
+use crate::equation::{Axis, Equation, Pair};
 use crate::model::{Element, Label, Level, MotionFreedom};
 use crate::system::System;
 
@@ -114,7 +114,7 @@ impl System {
         }
         for start in starts {
             let (i, j) = (self.marker(start.i), self.marker(start.j));
-            let row = start.equation.evaluate(&i, &j, &[]);
+            let row = start.equation.evaluate(&Pair::new(&i, &j), &[]);
             let along = matches!(start.equation, Equation::Along(_));
             let (scale, quantity) = if along {
                 (1.0 / length, LENGTH)

@@ -246,7 +246,9 @@ impl Dynamics {
                 (Level::Position, Formulation::Si2) | (Level::Velocity, _) => {
                     evaluated.rate - of(self.state.velocities())
                 }
-                (Level::Acceleration, _) => gamma * evaluated.acceleration - of(&self.change),
+                (Level::Acceleration, _) => {
+                    gamma * self.system.prescribed_acceleration(place) - of(&self.change)
+                }
             };
         }
         let lacks = &mut self.right[n + self.system.row_count()..];

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::response::{Joining, Response, respond};
 use super::{BristlePast, Element, LoadAt, Memory, Slopes, SurfaceVector, Values};
-use crate::equation::{Equation, Local, local_velocities};
+use crate::equation::{Equation, Local, Pair};
 use crate::model::{Friction, FrictionJoint, Law};
 use crate::state::MarkerFrame;
 use friction::Regime;
@@ -136,12 +136,13 @@ fn evaluate<const N: usize>(
     slopes: Option<&mut Slopes>,
 ) -> Element {
     let arms = equations.map(|equation| equation.arm(friction.load.arm()));
-    let u = local_velocities(i, j);
+    let pair = Pair::new(i, j);
+    let u = pair.velocities();
     let sticks = memory.stuck && matches!(friction.law, Law::Original(_));
     let (mut velocity, mut creep) = ([0.0; N], [0.0; N]);
     let mut rows = [Local::zeros(); N];
     for k in 0..N {
-        let row = equations[k].evaluate(i, j, &[]);
+        let row = equations[k].evaluate(&pair, &[]);
         rows[k] = row.jacobian;
         velocity[k] = arms[k] * row.jacobian.dot(&u);
         if sticks {
@@ -174,9 +175,9 @@ fn evaluate<const N: usize>(
     let Some(slopes) = slopes else {
         return element;
     };
-    let stiffnesses = equations.map(|equation| equation.stiffness(i, j, &[]));
+    let stiffnesses = equations.map(|equation| equation.stiffness(&pair, &[]));
     let velocity_by_position: [Local; N] =
-        std::array::from_fn(|k| arms[k] * stiffnesses[k].tr_mul(&u));
+        std::array::from_fn(|k| arms[k] * stiffnesses[k].rate_change(&pair));
     let mut along_load = Local::zeros();
     for k in 0..N {
         along_load += by_load[k] * rows[k];
@@ -190,7 +191,8 @@ fn evaluate<const N: usize>(
             }
         }
         slopes.by_velocity += rows[k] * velocity_change.transpose();
-        slopes.by_position += force[k] * stiffnesses[k] + rows[k] * position_change.transpose();
+        slopes.by_position +=
+            force[k] * stiffnesses[k].matrix(&pair) + rows[k] * position_change.transpose();
     }
     for (column, slope) in load.by_reaction.iter().enumerate() {
         slopes

@@ -34,7 +34,7 @@ pub(crate) use memory::StepEnd;
 pub use memory::{Memory, Tally};
 pub use values::{SurfaceVector, Values};
 
-use crate::equation::{Axis, Equation, Local, LocalMatrix, Pin};
+use crate::equation::{Axis, Equation, Local, LocalMatrix, Pair, Pin};
 use crate::model::{Friction, FrictionJoint};
 use crate::rotation::skew;
 use crate::state::MarkerFrame;
@@ -179,7 +179,7 @@ fn load_at(
     moment: [f64; 3],
 ) -> LoadAt {
     let displaced = || {
-        let row = Equation::Along(2).evaluate(i, j, &[]);
+        let row = Equation::Along(2).evaluate(&Pair::new(i, j), &[]);
         (row.value - memory.initial_displacement, row.jacobian)
     };
     match &friction.load {
@@ -266,10 +266,11 @@ fn surface_velocity(friction: &Friction, i: &MarkerFrame, j: &MarkerFrame) -> [f
     if equations.is_empty() {
         return (arm * (j.axes.transpose() * (i.omega - j.omega))).into();
     }
-    let u = crate::equation::local_velocities(i, j);
+    let pair = Pair::new(i, j);
+    let u = pair.velocities();
     let mut velocity = [0.0; 3];
     for (component, equation) in velocity.iter_mut().zip(equations) {
-        *component = equation.arm(arm) * equation.evaluate(i, j, &[]).jacobian.dot(&u);
+        *component = equation.arm(arm) * equation.evaluate(&pair, &[]).jacobian.dot(&u);
     }
     velocity
 }

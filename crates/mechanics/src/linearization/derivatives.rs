@@ -192,7 +192,7 @@ impl System {
             self.bodies[body].omega = Vector3::from_column_slice(&u[3..]);
         }
         self.evaluate_function(place);
-        -self.evaluated[place].acceleration
+        -self.evaluated[place].unbiased_acceleration
     }
 }
 

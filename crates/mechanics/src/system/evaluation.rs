@@ -2,10 +2,8 @@
 
 use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
-use crate::equation::{Axis, Equation, Local, local_velocities};
 use crate::expression::Input;
 use crate::measure::{self, Order, Quantity};
-use crate::model::Level;
 use crate::scalar::Jet;
 use crate::state::{MarkerFrame, State};
 
@@ -44,13 +42,11 @@ impl System {
         if derivatives || self.constraints.iter().any(|c| c.form == Form::Function) {
             self.evaluate_slopes();
         }
+        for group in 0..self.pairs.len() {
+            self.evaluate_pairs(group);
+        }
         for place in 0..self.constraints.len() {
-            match self.constraints[place].form {
-                Form::Pair { equation, i, j } => {
-                    self.evaluate_pair(place, equation, i, j, derivatives);
-                }
-                Form::Function => self.evaluate_function(place),
-            }
+            self.evaluate_function(place);
         }
     }
 
@@ -70,81 +66,6 @@ impl System {
                 if !self.model.bodies[body].rotates {
                     slopes[3..6].fill(0.0);
                     slopes[9..12].fill(0.0);
-                }
-            }
-        }
-    }
-
-    fn evaluate_pair(
-        &mut self,
-        place: usize,
-        equation: Equation,
-        i: usize,
-        j: usize,
-        derivatives: bool,
-    ) {
-        let (i, j) = (self.marker(i), self.marker(j));
-        let row = equation.evaluate(&i, &j, &self.model.curves);
-        let constraint = &self.constraints[place];
-        let (mut value, mut rate, mut acceleration) = (row.value, 0.0, 0.0);
-        if let Owner::Motion(motion) = constraint.owner {
-            let drive = self.model.motions[motion]
-                .function
-                .run(&mut self.jets, |input| {
-                    debug_assert_eq!(input, Input::Time, "motions depend on time only");
-                    Jet {
-                        value: self.inputs.time,
-                        rate: 1.0,
-                        acceleration: 0.0,
-                    }
-                });
-            match constraint.level {
-                Level::Position => {
-                    value -= drive.value;
-                    if equation == Equation::About(Axis::Z) {
-                        value = nearest_turn(value, 0.0);
-                    }
-                    rate = drive.rate;
-                    acceleration = drive.acceleration;
-                }
-                Level::Velocity => {
-                    value = 0.0;
-                    rate = drive.value;
-                    acceleration = drive.rate;
-                }
-                Level::Acceleration => {
-                    value = 0.0;
-                    acceleration = drive.value;
-                }
-            }
-        }
-        let evaluated = &mut self.evaluated[place];
-        evaluated.error = value;
-        evaluated.rate = rate;
-        evaluated.acceleration = acceleration - row.bias;
-        evaluated.local = row.jacobian;
-        self.release_point_masses(place);
-        let evaluated = &mut self.evaluated[place];
-        let sides = [i.body, j.body];
-        spread(&sides, &evaluated.local, &mut evaluated.jacobian);
-        if derivatives {
-            evaluated.stiffness = equation.stiffness(&i, &j, &self.model.curves);
-            let u = local_velocities(&i, &j);
-            let change = evaluated.stiffness.tr_mul(&u);
-            spread(&sides, &change, &mut evaluated.rate_change);
-        }
-    }
-
-    /// A point mass does not turn: its rotations take no part.
-    fn release_point_masses(&mut self, place: usize) {
-        if let Form::Pair { i, j, .. } = self.constraints[place].form {
-            for (marker, rotation) in [(i, 3), (j, 9)] {
-                let body = self.model.markers[marker].body;
-                if body.is_some_and(|body| !self.model.bodies[body].rotates) {
-                    self.evaluated[place]
-                        .local
-                        .fixed_rows_mut::<3>(rotation)
-                        .fill(0.0);
                 }
             }
         }
@@ -205,7 +126,7 @@ impl System {
         let along = self.rate_along(&self.constraints[place], &self.evaluated[place]);
         let evaluated = &mut self.evaluated[place];
         evaluated.rate = along - jet.rate;
-        evaluated.acceleration = -jet.acceleration;
+        evaluated.unbiased_acceleration = -jet.acceleration;
     }
 
     /// `G u` with the velocities of the bodies as they were evaluated last.
@@ -223,19 +144,7 @@ impl System {
 }
 
 /// `value` plus the whole turns that bring it closest to `reference`.
-fn nearest_turn(value: f64, reference: f64) -> f64 {
+pub(super) fn nearest_turn(value: f64, reference: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     value + turn * ((reference - value) / turn).round()
-}
-
-fn spread(sides: &[Option<usize>; 2], local: &Local, blocks: &mut [[f64; 6]]) {
-    let mut block = 0;
-    for (side, body) in sides.iter().enumerate() {
-        if body.is_some() {
-            for k in 0..6 {
-                blocks[block][k] = local[6 * side + k];
-            }
-            block += 1;
-        }
-    }
 }

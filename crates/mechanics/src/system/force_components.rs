@@ -16,7 +16,7 @@ use super::System;
 use super::newton_matrix::Weights;
 use super::single_force::{direction, direction_by_frame, direction_stiffness};
 use crate::constraint::{Form, Owner};
-use crate::equation::{Local, LocalMatrix};
+use crate::equation::{Local, LocalMatrix, Pair};
 use crate::force_element::{ForceComponent, ForceElement, Side};
 use crate::model::Element;
 use crate::snapshot::Wrench;
@@ -264,12 +264,14 @@ impl System {
                 continue;
             };
             match constraint.form {
-                Form::Pair { i, j, .. } => {
+                Form::Pair { equation, i, j } => {
                     let local = evaluated.local.fixed_rows::<6>(0);
                     row.add(first + number, p.dot(&local));
-                    let sides = [i, j].map(|m| self.model.markers[m].body);
+                    let [i, j] = [i, j].map(|marker| self.marker(marker));
+                    let pair = Pair::new(&i, &j);
+                    let stiffness = equation.stiffness(&pair, &self.model.curves).matrix(&pair);
                     let scale = row.weights.position * multipliers[number];
-                    self.add_local_row(&p, &sides, &evaluated.stiffness, scale, row);
+                    self.add_local_row(&p, &[i.body, j.body], &stiffness, scale, row);
                 }
                 Form::Function => {
                     let Some(i) = &reading.i else { continue };

@@ -31,6 +31,7 @@ mod force_components;
 mod forces;
 mod inputs;
 mod newton_matrix;
+mod pairs;
 mod reactions;
 mod single_force;
 mod switches;
@@ -47,6 +48,7 @@ use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
 pub(crate) use newton_matrix::Weights;
+use pairs::PairGroup;
 use serde::{Deserialize, Serialize};
 pub(crate) use switches::{Course, Reading, SwitchPlace, Units};
 
@@ -73,6 +75,7 @@ pub struct History {
 pub struct System {
     pub(crate) model: Model,
     pub(crate) constraints: Vec<Constraint>,
+    pairs: Vec<PairGroup>,
     /// Constraint of each row in force.
     pub(crate) rows: Vec<usize>,
     /// Contributions to the reaction of each friction's joint.
@@ -167,6 +170,7 @@ impl System {
             measure_bodies,
             needed,
             rows: Vec::new(),
+            pairs: pairs::groups(&constraints),
             reactions,
             bristles: vec![BristlePast::default(); model.frictions.len()],
             statics: false,

@@ -6,9 +6,9 @@ use numerics::linear::Matrix;
 use super::single_force::{ByRotation, direction, direction_by_frame, direction_stiffness};
 use super::{Rows, System};
 use crate::constraint::Form;
-use crate::equation::{Local, LocalMatrix};
+use crate::equation::{Local, LocalMatrix, Reach};
 use crate::joint_friction::{Share, Slopes};
-use crate::model::{Element, Level};
+use crate::model::Element;
 use crate::rotation::skew;
 
 /// What the parts of the Newton matrix are multiplied with.
@@ -89,34 +89,24 @@ impl System {
     ) {
         matrix.start();
         self.assemble_bodies(weights, w, matrix);
-        let n = self.rate_count();
-        for (row, &place) in self.rows.iter().enumerate() {
-            let evaluated = &self.evaluated[place];
-            let constraint = &self.constraints[place];
-            let moves = rows == Rows::Velocity && constraint.level == Level::Position
-                || constraint.level == Level::Velocity;
-            for (block, &body) in constraint.bodies.iter().enumerate() {
-                for k in 0..6 {
-                    let g = evaluated.jacobian[block][k];
-                    let change = evaluated.rate_change[block][k];
-                    let rate = if moves {
-                        weights.velocity * change
-                    } else {
-                        0.0
-                    };
-                    matrix.add(n + row, 6 * body + k, g + rate);
-                    matrix.add(6 * body + k, n + row, -g);
-                }
-            }
-            if let Form::Pair { equation, i, j } = constraint.form {
-                let sides = [i, j].map(|m| self.model.markers[m].body);
-                let scale = -weights.position * multipliers[row];
-                let first = equation.first_motion();
-                self.add_local_matrix(&sides, &evaluated.stiffness, first, scale, matrix);
-            }
-        }
+        self.assemble_pairs(rows, weights, multipliers, matrix);
+        self.assemble_functions(matrix);
         self.assemble_forces(weights, matrix);
         self.assemble_elements(&weights, multipliers, matrix);
+    }
+
+    /// Rows and columns of general constraints. How their gradients change is left out.
+    fn assemble_functions(&self, matrix: &mut Matrix) {
+        let n = self.rate_count();
+        for (constraint, evaluated) in self.constraints.iter().zip(&self.evaluated) {
+            let (Form::Function, Some(row)) = (constraint.form, constraint.row) else {
+                continue;
+            };
+            for (&body, block) in constraint.bodies.iter().zip(&evaluated.jacobian) {
+                matrix.add_block(n + row, 6 * body, &[*block]);
+                matrix.add_block(6 * body, n + row, &block.map(|g| [-g]));
+            }
+        }
     }
 
     fn assemble_bodies(&self, weights: Weights, w: &[f64], matrix: &mut Matrix) {
@@ -135,11 +125,7 @@ impl System {
             let by_theta = -skew(&omega) * turning(&omega);
             let block = weights.mass * inertia + weights.velocity * (turning(&w) - by_omega)
                 - weights.position * by_theta;
-            for r in 0..3 {
-                for c in 0..3 {
-                    matrix.add(first + 3 + r, first + 3 + c, block[(r, c)]);
-                }
-            }
+            matrix.add_block(first + 3, first + 3, &block.transpose().data.0);
         }
     }
 
@@ -157,7 +143,7 @@ impl System {
             let turning = direction_stiffness(force.kind, &frames);
             let sides = frames.sides();
             let scale = -weights.position * value;
-            self.add_local_matrix(&sides, &turning, 0, scale, matrix);
+            self.add_local_matrix(&sides, &turning, Reach::Place, scale, matrix);
             if let (Some(change), Some(carrier)) =
                 (direction_by_frame(force.kind, &frames), frames.frame.body)
             {
@@ -191,7 +177,12 @@ impl System {
                 }
             });
             if let Some((sides, moving)) = change {
-                self.add_local_matrix(&sides, &moving, first, -1.0, matrix);
+                let reach = if first == 3 {
+                    Reach::Turns
+                } else {
+                    Reach::Place
+                };
+                self.add_local_matrix(&sides, &moving, reach, -1.0, matrix);
             }
         }
     }
@@ -258,31 +249,36 @@ impl System {
         }
     }
 
-    /// Adds a matrix over the local motions of two bodies; of each body's six from `first` on, the
-    /// others being none of the element's.
-    fn add_local_matrix(
+    /// Adds the parts that `reach` connects of a matrix over the local motions of two bodies.
+    pub(super) fn add_local_matrix(
         &self,
         sides: &[Option<usize>; 2],
         local: &LocalMatrix,
-        first: usize,
+        reach: Reach,
         scale: f64,
         matrix: &mut Matrix,
     ) {
-        let turns = |body: usize| self.model.bodies[body].rotates;
-        for (row_side, row_body) in sides.iter().enumerate() {
-            let Some(row_body) = *row_body else { continue };
-            for (column_side, column_body) in sides.iter().enumerate() {
-                let Some(column_body) = *column_body else {
+        // Body, first motion and scale of the four parts; a point mass does not turn.
+        let parts: [_; 4] = std::array::from_fn(|part| {
+            let first = 3 * (part % 2);
+            sides[part / 2].map(|body| {
+                let free = first == 0 || self.model.bodies[body].rotates;
+                (6 * body + first, f64::from(u8::from(free)))
+            })
+        });
+        for (r, row) in parts.iter().enumerate() {
+            let Some((row, row_free)) = *row else {
+                continue;
+            };
+            for (c, column) in parts.iter().enumerate() {
+                let (true, Some((column, column_free))) = (reach.connects(r, c), *column) else {
                     continue;
                 };
-                for r in first..6 {
-                    for c in first..6 {
-                        let free = (r < 3 || turns(row_body)) && (c < 3 || turns(column_body));
-                        let entry = local[(6 * row_side + r, 6 * column_side + c)];
-                        let value = if free { scale * entry } else { 0.0 };
-                        matrix.add(6 * row_body + r, 6 * column_body + c, value);
-                    }
-                }
+                let scale = scale * row_free * column_free;
+                let block: [[f64; 3]; 3] = std::array::from_fn(|k| {
+                    std::array::from_fn(|l| scale * local[(3 * r + k, 3 * c + l)])
+                });
+                matrix.add_block(row, column, &block);
             }
         }
     }

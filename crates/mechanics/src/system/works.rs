@@ -2,7 +2,7 @@
 
 use super::System;
 use super::single_force::direction;
-use crate::equation::local_velocities;
+use crate::equation::Pair;
 use crate::model::{Element, Level};
 
 impl System {
@@ -26,7 +26,7 @@ impl System {
             }
             let frames = self.force_frames(&self.model.forces[place]);
             let direction = direction(self.model.forces[place].kind, &frames);
-            let velocities = local_velocities(&frames.i, &frames.j);
+            let velocities = Pair::new(&frames.i, &frames.j).velocities();
             forces += self.force_value(place) * direction.dot(&velocities);
         }
         powers[frictions] = forces;

@@ -84,6 +84,29 @@ impl Matrix {
         self.next += 1;
     }
 
+    /// Adds a block of values whose first is at `row`, `column`: as [`Matrix::add`] row by row.
+    #[inline]
+    pub fn add_block<const R: usize, const C: usize>(
+        &mut self,
+        row: usize,
+        column: usize,
+        block: &[[f64; C]; R],
+    ) {
+        if !self.compressed || cfg!(debug_assertions) {
+            for (r, values) in block.iter().enumerate() {
+                for (c, value) in values.iter().enumerate() {
+                    self.add(row + r, column + c, *value);
+                }
+            }
+            return;
+        }
+        let slots = &self.slots[self.next..self.next + R * C];
+        for (&slot, value) in slots.iter().zip(block.as_flattened()) {
+            self.values[slot as usize] += value;
+        }
+        self.next += R * C;
+    }
+
     /// Ends an assembly; the first time it fixes the pattern.
     pub fn compress(&mut self) {
         if self.compressed {
