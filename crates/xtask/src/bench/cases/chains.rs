@@ -23,20 +23,14 @@ fn chain(
     count: usize,
     [tightest, own]: [i32; 2],
     exudyn: &'static [u32],
-    mujoco: Option<&'static [u32]>,
+    mujoco: &'static [u32],
 ) -> Result<Case, String> {
-    let mut peers = vec![PeerSetup {
-        name: "Exudyn, generalised alpha 0.8, absolute coordinates",
-        script: "exudyn_chain.py",
-        arguments: vec![count.to_string()],
-        steps: exudyn,
-    }];
-    peers.extend(mujoco.map(|steps| PeerSetup {
-        name: "MuJoCo, Runge and Kutta, joint coordinates",
-        script: "mujoco_chain.py",
+    let peer = |name, script, steps| PeerSetup {
+        name,
+        script,
         arguments: vec![count.to_string()],
         steps,
-    }));
+    };
     Ok(Case {
         name,
         title,
@@ -48,7 +42,18 @@ fn chain(
         quantity: "largest of the first hinge's rate, rad/s, and the coordinates of the tip, m, at the end",
         reference: Reference::Own(10f64.powi(own)),
         tightest,
-        peers,
+        peers: vec![
+            peer(
+                "Exudyn, generalised alpha 0.8, absolute coordinates",
+                "exudyn_chain.py",
+                exudyn,
+            ),
+            peer(
+                "MuJoCo, Runge and Kutta, joint coordinates",
+                "mujoco_chain.py",
+                mujoco,
+            ),
+        ],
     })
 }
 
@@ -60,7 +65,7 @@ pub(super) fn chain_10(_: &Path) -> Result<Case, String> {
         10,
         [-10, -12],
         exudyn,
-        Some(&[100, 300, 1_000]),
+        &[20, 50, 100, 300, 1_000],
     )
 }
 
@@ -72,7 +77,7 @@ pub(super) fn chain_100(_: &Path) -> Result<Case, String> {
         100,
         [-8, -10],
         exudyn,
-        Some(&[100, 300, 1_000]),
+        &[20, 50, 100, 300, 1_000],
     )
 }
 
@@ -84,6 +89,6 @@ pub(super) fn chain_1000(_: &Path) -> Result<Case, String> {
         1_000,
         [-6, -8],
         exudyn,
-        None,
+        &[50, 100],
     )
 }

@@ -57,7 +57,7 @@ pub(super) fn andrews(_: &Path) -> Result<Case, String> {
                 name: "Exudyn, trapezoidal index 2",
                 script: "exudyn_andrews.py",
                 arguments: vec!["trapezoidal".into()],
-                steps: &[500, 2_000, 8_000, 16_000],
+                steps: &[500, 2_000, 8_000, 16_000, 64_000],
             },
         ],
     })
@@ -107,18 +107,13 @@ fn four_bars(
 }
 
 pub(super) fn four_bar_2(_: &Path) -> Result<Case, String> {
-    let steps: &[u32] = &[1_000, 4_000, 16_000, 64_000];
-    four_bars(
-        "four-bar-2",
-        "Four-bars, N = 2",
-        2,
-        [steps, &[1_000, 4_000]],
-    )
+    let steps: &[u32] = &[1_000, 4_000, 10_000, 16_000, 20_000, 64_000];
+    four_bars("four-bar-2", "Four-bars, N = 2", 2, [steps, &[4_000]])
 }
 
 pub(super) fn four_bar_40(_: &Path) -> Result<Case, String> {
-    let steps: &[u32] = &[2_000, 4_000, 16_000];
-    four_bars("four-bar-40", "Four-bars, N = 40", 40, [steps, &[4_000]])
+    let steps: &[u32] = &[2_000, 4_000, 10_000];
+    four_bars("four-bar-40", "Four-bars, N = 40", 40, [steps, &[2_000]])
 }
 
 pub(super) fn slider_crank(_: &Path) -> Result<Case, String> {

@@ -43,10 +43,10 @@ pub(super) fn lugre_pendulum(_: &Path) -> Result<Case, String> {
         reference: Reference::Own(1e-12),
         tightest: -10,
         peers: vec![PeerSetup {
-            name: "Exudyn, generalised alpha 0.8",
+            name: "Exudyn, trapezoidal index 2",
             script: "exudyn_lugre_pendulum.py",
             arguments: Vec::new(),
-            steps: &[2_000, 5_000, 10_000],
+            steps: &[500, 2_000, 5_000],
         }],
     })
 }
@@ -88,7 +88,7 @@ pub(super) fn stick_slip(_: &Path) -> Result<Case, String> {
             exudyn(
                 "Exudyn, trapezoidal index 2",
                 "trapezoidal",
-                &[25_000, 50_000],
+                &[10_000, 25_000, 100_000],
             ),
             exudyn("Exudyn, DOPRI5", "dopri5", &[25_000]),
         ],
