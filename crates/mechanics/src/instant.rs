@@ -212,7 +212,7 @@ impl Instant {
     fn factor(&mut self, system: &mut System, multipliers: &[f64]) -> Result<(), Failure> {
         system.assemble(
             Rows::Position,
-            Weights::step(0.0),
+            Weights::instant(),
             &self.zero,
             multipliers,
             &mut self.matrix,

@@ -512,7 +512,7 @@ fn check(law: &Law, rows: Rows) {
     let mut matrix = Matrix::new(size);
     residual.system.assemble(
         rows,
-        Weights::step(residual.gamma),
+        Weights::step(1.0, residual.gamma, residual.gamma),
         &w,
         &multipliers,
         &mut matrix,

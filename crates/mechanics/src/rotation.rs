@@ -37,6 +37,21 @@ impl Quaternion {
         q[1..4].copy_from_slice(self.v.as_slice());
     }
 
+    /// A vector as a quaternion.
+    #[must_use]
+    pub fn from_vector(v: Vector3<f64>) -> Self {
+        Self { w: 0.0, v }
+    }
+
+    /// The sum of the components.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            w: self.w + other.w,
+            v: self.v + other.v,
+        }
+    }
+
     /// The product: first `other`, then `self`.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {

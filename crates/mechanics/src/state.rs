@@ -82,6 +82,11 @@ impl State {
         (POSITIONS + VELOCITIES) * self.bodies
     }
 
+    /// Places of the velocities among the values.
+    fn velocity_range(&self) -> std::ops::Range<usize> {
+        POSITIONS * self.bodies..self.motions()
+    }
+
     /// Places among the values of what has a rate: velocities, then differential states.
     pub(crate) fn rate_range(&self) -> std::ops::Range<usize> {
         POSITIONS * self.bodies..self.motions() + self.states
@@ -178,6 +183,43 @@ impl State {
                 .times(&self.orientation(body))
                 .normalized();
             turned.write(&mut self.values[place + 3..place + POSITIONS]);
+        }
+    }
+
+    /// Writes the rates of the positions at `values`, which are laid out like the state's own:
+    /// `q̇ = ½ ω q`.
+    pub(crate) fn write_position_slopes(&self, values: &[f64], slopes: &mut [f64]) {
+        let velocities = &values[self.velocity_range()];
+        for (body, u) in velocities.chunks_exact(VELOCITIES).enumerate() {
+            let place = body * POSITIONS;
+            slopes[place..place + 3].copy_from_slice(&u[..3]);
+            let q = Quaternion::from_slice(&values[place + 3..place + POSITIONS]);
+            let half = Quaternion::from_vector(0.5 * Vector3::from_column_slice(&u[3..]));
+            half.times(&q)
+                .write(&mut slopes[place + 3..place + POSITIONS]);
+        }
+    }
+
+    /// Writes the second derivatives of the positions at `values` with `slopes`, both laid out like the
+    /// state's own: `q̈ = ½ (ω̇ q + ω q̇)`.
+    pub(crate) fn write_position_curvatures(
+        &self,
+        values: &[f64],
+        slopes: &[f64],
+        curvatures: &mut [f64],
+    ) {
+        let velocities = &values[self.velocity_range()];
+        let accelerations = &slopes[self.velocity_range()];
+        let pairs = velocities.chunks_exact(VELOCITIES);
+        let pairs = pairs.zip(accelerations.chunks_exact(VELOCITIES));
+        for (body, (u, a)) in pairs.enumerate() {
+            let place = body * POSITIONS;
+            curvatures[place..place + 3].copy_from_slice(&a[..3]);
+            let turn = place + 3..place + POSITIONS;
+            let half = |u: &[f64]| Quaternion::from_vector(0.5 * Vector3::from_column_slice(u));
+            let by_rate = half(&u[3..]).times(&Quaternion::from_slice(&slopes[turn.clone()]));
+            let by_turn = half(&a[3..]).times(&Quaternion::from_slice(&values[turn.clone()]));
+            by_rate.plus(&by_turn).write(&mut curvatures[turn]);
         }
     }
 }

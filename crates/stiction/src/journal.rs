@@ -230,6 +230,9 @@ impl<'p, W: Write> Journal<'p, W> {
         let name = match settings.formulation {
             Formulation::I3 => "BDF I3",
             Formulation::Si2 => "BDF SI2",
+            Formulation::Adams => "Adams",
+            Formulation::Hht { .. } => "HHT I3",
+            Formulation::Newmark { .. } => "Newmark I3",
         };
         let written = self.writer.begin_simulation(analysis, name, settings.error);
         self.check(written)?;

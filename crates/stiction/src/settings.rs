@@ -12,6 +12,14 @@ const OWN_ERROR: f64 = 1e-6;
 const SHORTEST: f64 = 1e-9;
 /// Highest order of the formulas that are stable enough to be used.
 const HIGHEST_ORDER: u32 = 5;
+/// ALPHA of HHT, BETA and GAMMA of NEWMARK where they are not given (statement page of INTEGRATOR).
+const HHT_ALPHA: f64 = -0.3;
+const NEWMARK_BETA: f64 = 0.36;
+const NEWMARK_GAMMA: f64 = 0.7;
+/// Where HHT and Newmark's method are stable: with less, the steps of position constraints swing up.
+const ALPHAS: [f64; 2] = [-1.0 / 3.0, 0.0];
+const BETAS: [f64; 2] = [0.25, 1.0];
+const GAMMAS: [f64; 2] = [0.5, 1.0];
 /// Output steps of a SIMULATE with neither STEPS nor DTOUT.
 const DEFAULT_STEPS: u32 = 50;
 /// More outputs than this in one simulation are refused.
@@ -47,19 +55,40 @@ pub(crate) fn choose(
         ));
     }
     let given = integrator.unwrap_or(&fallback);
-    let formulation = match given.formulation {
-        None if integrator.is_none() => Formulation::Si2,
-        None | Some(IndexReduction::I3) => Formulation::I3,
-        Some(IndexReduction::Si2) => Formulation::Si2,
-        Some(IndexReduction::Si1) => {
-            notes.push("SI1 is not available: SI2 is used".to_owned());
-            Formulation::Si2
-        }
-    };
     let method = given.method.unwrap_or(IntegratorMethod::Gstiff);
-    if method != IntegratorMethod::Gstiff {
+    let formulation = match method {
+        IntegratorMethod::Hht => Formulation::Hht {
+            alpha: in_range(given.alpha, HHT_ALPHA, ALPHAS, "ALPHA", &mut notes),
+        },
+        IntegratorMethod::Newmark => Formulation::Newmark {
+            beta: in_range(given.beta, NEWMARK_BETA, BETAS, "BETA", &mut notes),
+            gamma: in_range(given.gamma, NEWMARK_GAMMA, GAMMAS, "GAMMA", &mut notes),
+        },
+        _ => match given.formulation {
+            None if integrator.is_none() => Formulation::Si2,
+            None | Some(IndexReduction::I3) => Formulation::I3,
+            Some(IndexReduction::Si2) => Formulation::Si2,
+            Some(IndexReduction::Si1) => {
+                notes.push("SI1 is not available: SI2 is used".to_owned());
+                Formulation::Si2
+            }
+        },
+    };
+    let is_newmark = matches!(method, IntegratorMethod::Hht | IntegratorMethod::Newmark);
+    if !(is_newmark || method == IntegratorMethod::Gstiff) {
         notes.push(format!(
             "{} is not available: backward differences of variable order (as GSTIFF) are used",
+            method.keyword()
+        ));
+    }
+    if is_newmark
+        && matches!(
+            given.formulation,
+            Some(IndexReduction::Si1 | IndexReduction::Si2)
+        )
+    {
+        notes.push(format!(
+            "{} has position constraints only (I3)",
             method.keyword()
         ));
     }
@@ -69,7 +98,10 @@ pub(crate) fn choose(
         _ => 1e-3,
     };
     let highest_order = given.kmax.unwrap_or(6).clamp(1, HIGHEST_ORDER);
-    if let Some(kmax) = given.kmax.filter(|kmax| *kmax > HIGHEST_ORDER) {
+    if let Some(kmax) = given
+        .kmax
+        .filter(|kmax| *kmax > HIGHEST_ORDER && !is_newmark)
+    {
         notes.push(format!("KMAX={kmax}: the highest order is {HIGHEST_ORDER}"));
     }
     let longest_step = given.hmax.unwrap_or(output_step);
@@ -85,9 +117,18 @@ pub(crate) fn choose(
             ("CORRECTOR", given.corrector.is_some()),
             ("INTERPOLATE", given.interpolate.is_some()),
             ("ADAPTIVITY", given.adaptivity.is_some()),
-            ("ALPHA", given.alpha.is_some()),
-            ("BETA", given.beta.is_some()),
-            ("GAMMA", given.gamma.is_some()),
+            (
+                "ALPHA",
+                given.alpha.is_some() && method != IntegratorMethod::Hht,
+            ),
+            (
+                "BETA",
+                given.beta.is_some() && method != IntegratorMethod::Newmark,
+            ),
+            (
+                "GAMMA",
+                given.gamma.is_some() && method != IntegratorMethod::Newmark,
+            ),
         ],
     ));
     let settings = Settings {
@@ -103,6 +144,24 @@ pub(crate) fn choose(
         newton_iterations: given.maxit.unwrap_or(10) as usize,
     };
     Choice { settings, notes }
+}
+
+/// A coefficient of the integrator, brought into its range with a note where it is outside.
+fn in_range(
+    given: Option<f64>,
+    default: f64,
+    [least, most]: [f64; 2],
+    keyword: &str,
+    notes: &mut Vec<String>,
+) -> f64 {
+    let value = given.unwrap_or(default);
+    let used = value.clamp(least, most);
+    if used != value {
+        notes.push(format!(
+            "{keyword}={value} is outside of {least:.4} to {most}: {used:.4} is used"
+        ));
+    }
+    used
 }
 
 /// What to tell about the arguments of a statement that are given and do nothing.
@@ -284,11 +343,25 @@ mod tests {
             ..Integrator::default()
         };
         let chosen = choose(Some(&given), None, 0.01, None, 1.0);
-        assert_eq!(chosen.settings.formulation, Formulation::I3);
+        assert_eq!(
+            chosen.settings.formulation,
+            Formulation::Hht { alpha: -0.3 }
+        );
         assert_eq!(chosen.settings.error, 1e-5);
-        assert_eq!(chosen.settings.highest_order, 5);
         assert_eq!(chosen.settings.shortest_step, 1e-9);
-        assert_eq!(chosen.notes.len(), 3);
+        assert_eq!(chosen.notes.len(), 1);
+        let newmark = Integrator {
+            method: Some(IntegratorMethod::Newmark),
+            gamma: Some(0.6),
+            ..Integrator::default()
+        };
+        let newmark = choose(Some(&newmark), None, 0.01, None, 1.0);
+        let formulation = Formulation::Newmark {
+            beta: 0.36,
+            gamma: 0.6,
+        };
+        assert_eq!(newmark.settings.formulation, formulation);
+        assert_eq!(newmark.notes, Vec::<String>::new());
         assert_eq!(
             choose(Some(&given), None, 0.01, Some(1e-4), 1.0)
                 .settings

@@ -29,48 +29,36 @@
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
 
+mod formulation;
+mod newton;
 mod positions;
+mod projection;
 mod quadrature;
 mod scales;
 mod switching;
+
+use std::ops::Range;
 
 use numerics::bdf::{self, Verdict, Within};
 use numerics::linear::{FrontalLu, Matrix};
 
 use crate::instant::Failure;
 use crate::joint_friction::Memory;
-use crate::model::Level;
 use crate::state::{POSITIONS, State, VELOCITIES};
-use crate::system::{Rows, System, Weights};
+use crate::system::System;
+pub use formulation::Formulation;
+pub(crate) use formulation::Index;
 use quadrature::Quadrature;
 pub(crate) use scales::Scales;
 use scales::raise;
 pub use switching::Sliding;
 use switching::Switching;
 
-/// How the constraints enter a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Formulation {
-    /// Position constraints only; velocities and reactions follow by differentiation.
-    I3,
-    /// Stabilised index 2: position and velocity constraints.
-    Si2,
-}
-
-/// Newton stops when what is left is this part of the error tolerance.
-const NEWTON_TOLERANCE: f64 = 0.05;
-/// The same for I3, whose velocities and reactions are what is left divided by the step and its
-/// square.
-const INDEX3_NEWTON_TOLERANCE: f64 = 0.002;
 /// A kept Newton matrix serves while γ stays within this part of its own.
 const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
 const SLOW_RATE: f64 = 0.1;
 
-/// Iterations with a matrix each, at least.
-const FULL_ITERATIONS: usize = 20;
-/// Corrections that may grow in such an iteration.
-const GROWTHS: usize = 5;
 /// Steps that are solved as I3 once SI2 has failed, so that a nearly singular position is behind.
 const INDEX3_STEPS: usize = 10;
 
@@ -105,7 +93,7 @@ pub(crate) struct Dynamics {
     pub(crate) system: System,
     formulation: Formulation,
     /// How constraints enter the present step.
-    present: Formulation,
+    present: Index,
     /// Steps of SI2 that are still to be solved as I3.
     index3_left: usize,
     /// Error tolerance per step, relative to the scales.
@@ -132,6 +120,10 @@ pub(crate) struct Dynamics {
     trial: Vec<f64>,
     change: Vec<f64>,
     force: Vec<f64>,
+    /// Forces at the last accepted step, where HHT reads them.
+    past_force: Vec<f64>,
+    /// Rates of velocities and differential states that the step was solved with.
+    rates: Vec<f64>,
     momentum: Vec<f64>,
     right: Vec<f64>,
     position_right: Vec<f64>,
@@ -152,7 +144,7 @@ impl Dynamics {
         state.set_shares(system.switch_count());
         Self {
             formulation: Formulation::Si2,
-            present: Formulation::Si2,
+            present: Index::StabilisedTwo,
             index3_left: 0,
             tolerance: 1e-6,
             newton_iterations: 4,
@@ -172,6 +164,8 @@ impl Dynamics {
             trial: vec![0.0; multipliers],
             change: vec![0.0; n],
             force: vec![0.0; n],
+            past_force: vec![0.0; n],
+            rates: vec![0.0; n],
             momentum: vec![0.0; n],
             right: vec![0.0; size],
             position_right: vec![0.0; size],
@@ -189,7 +183,7 @@ impl Dynamics {
         self.switching.start(&mut self.system);
         self.previous.clone_from(&system.history.frictions);
         self.formulation = formulation;
-        self.present = formulation;
+        self.present = formulation.index();
         self.index3_left = 0;
         self.scales = scales;
         self.factored = None;
@@ -210,6 +204,23 @@ impl Dynamics {
         self.quadrature.start(time, works, powers);
     }
 
+    /// Takes over the rates of velocities and states of the instant that a run begins at.
+    pub(crate) fn start_rates(&mut self, rates: &[f64]) {
+        if self.formulation.alpha() != 0.0 {
+            self.system.mass_times(rates, &mut self.past_force);
+        }
+    }
+
+    /// What multiplies the inertia forces: `M u̇/(1 + α) = F − α/(1 + α) F₀` with HHT.
+    fn inertia_part(&self) -> f64 {
+        1.0 / (1.0 + self.formulation.alpha())
+    }
+
+    /// What multiplies the forces of the last step.
+    fn lag(&self) -> f64 {
+        -self.formulation.alpha() * self.inertia_part()
+    }
+
     /// Solves the next steps as I3.
     pub(crate) fn cross(&mut self) {
         self.index3_left = INDEX3_STEPS;
@@ -219,163 +230,6 @@ impl Dynamics {
     /// Whether the next step is one of SI2 that is solved as I3.
     pub(crate) fn crosses(&self) -> bool {
         self.index3_left > 0
-    }
-
-    /// Right-hand sides at the state evaluated last.
-    fn residual(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
-        self.work.residuals += 1;
-        let n = self.system.rate_count();
-        let gamma = step.gamma;
-        self.take_change(step);
-        for (trial, impulse) in self.trial.iter_mut().zip(&self.impulses) {
-            *trial = impulse / gamma;
-        }
-        self.system
-            .set_solution(&self.change, 1.0 / gamma, &self.trial);
-        self.system.mass_times(&self.change, &mut self.momentum);
-        self.system.forces(&self.trial, &mut self.force);
-        for k in 0..n {
-            self.right[k] = gamma * self.force[k] - self.momentum[k];
-        }
-        for (row, &place) in self.system.rows.iter().enumerate() {
-            let evaluated = &self.system.evaluated[place];
-            let constraint = &self.system.constraints[place];
-            let of = |u: &[f64]| evaluated.rate_of(&constraint.bodies, u);
-            self.right[n + row] = match (constraint.level, self.present) {
-                (Level::Position, Formulation::I3) => -evaluated.error / gamma,
-                (Level::Position, Formulation::Si2) | (Level::Velocity, _) => {
-                    evaluated.rate - of(self.state.velocities())
-                }
-                (Level::Acceleration, _) => {
-                    gamma * self.system.prescribed_acceleration(place) - of(&self.change)
-                }
-            };
-        }
-        let lacks = &mut self.right[n + self.system.row_count()..];
-        self.system.algebraic_residual(&self.trial, lacks);
-        for lack in lacks {
-            *lack *= gamma;
-        }
-        if self.right.iter().all(|r| r.is_finite()) {
-            Ok(())
-        } else {
-            Err(Failure::NotANumber {
-                element: self.system.find_not_a_number(),
-            })
-        }
-    }
-
-    /// Size of a Newton correction in units of the error tolerance.
-    fn correction_norm(&self, gamma: f64) -> f64 {
-        let n = self.system.velocity_count();
-        let (length, rate) = (self.scales.length, self.scales.rate);
-        let mut norm = 0.0_f64;
-        for k in 0..n {
-            let unit = if k % 6 < 3 { length } else { 1.0 };
-            norm = norm.max((gamma * self.right[k]).abs() / unit);
-            if self.present == Formulation::Si2 {
-                norm = norm.max(self.right[k].abs() / (unit * rate));
-                norm = norm.max(self.position_right[k].abs() / unit);
-            }
-        }
-        for (scale, change) in self.state_scales.iter().zip(&self.right[n..]) {
-            norm = norm.max(change.abs() / scale);
-        }
-        norm / self.tolerance
-    }
-
-    /// Newton's iteration from the loaded state, with the matrix used as `usage` says.
-    fn newton(&mut self, step: &bdf::Step<'_>, usage: MatrixUse) -> Result<(), Failure> {
-        let gamma = step.gamma;
-        let moving = self.system.velocity_count();
-        let n = self.system.rate_count();
-        let rows = match self.present {
-            Formulation::I3 => Rows::Position,
-            Formulation::Si2 => Rows::Velocity,
-        };
-        let (mut last, mut worst, mut growths) = (0.0, 0, 0);
-        let iterations = match usage {
-            MatrixUse::RenewedAlways => self.newton_iterations.max(FULL_ITERATIONS),
-            _ => self.newton_iterations,
-        };
-        let tolerance = match self.present {
-            Formulation::Si2 => NEWTON_TOLERANCE,
-            Formulation::I3 => INDEX3_NEWTON_TOLERANCE,
-        };
-        let tolerance = tolerance * self.switching.newton_part();
-        for iteration in 0..iterations {
-            let renew = match usage {
-                MatrixUse::Kept => false,
-                MatrixUse::Renewed => iteration == 0,
-                MatrixUse::RenewedAlways => true,
-            };
-            self.system.evaluate(&self.state, renew);
-            self.residual(step)?;
-            if renew {
-                self.factored = None;
-                self.work.factorisations += 1;
-                let weights = Weights::step(gamma);
-                self.system
-                    .assemble(rows, weights, &self.change, &self.trial, &mut self.matrix);
-                let factored = self.factors.factor(&self.matrix);
-                factored.map_err(|singular| self.system.without_solution(singular))?;
-                self.factored = Some(gamma);
-            }
-            self.factors.solve(&mut self.right);
-            for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
-                *impulse += change;
-            }
-            match self.present {
-                Formulation::Si2 => {
-                    self.correct_positions(gamma);
-                    for k in 0..moving {
-                        self.state.velocities_mut()[k] += self.right[k];
-                        self.shift[k] += self.position_right[k];
-                    }
-                    self.positions_from_velocities(step)?;
-                }
-                Formulation::I3 => {
-                    for k in 0..moving {
-                        self.change[k] = gamma * self.right[k];
-                    }
-                    self.state.displace(&self.change[..moving]);
-                    self.velocities_from_positions(step);
-                }
-            }
-            let states = self.state.states_mut().iter_mut();
-            for (state, change) in states.zip(&self.right[moving..n]) {
-                *state += change;
-            }
-            let norm = self.correction_norm(gamma);
-            let size = |k: &usize| self.right[*k].abs();
-            worst = (0..n)
-                .max_by(|a, b| size(a).total_cmp(&size(b)))
-                .unwrap_or(0);
-            if !norm.is_finite() {
-                break;
-            }
-            if norm == 0.0 {
-                return Ok(());
-            }
-            // The first correction says nothing about how fast the iteration converges, and the
-            // rate of an earlier step says nothing about a matrix that has gone stale since.
-            if iteration > 0 {
-                self.rate = norm / last;
-                if self.rate >= 1.0 && norm > tolerance {
-                    // With a matrix of its own in each iteration the kink may be crossed once or
-                    // twice before the iteration settles on one side.
-                    growths += 1;
-                    if usage != MatrixUse::RenewedAlways || growths > GROWTHS {
-                        break;
-                    }
-                }
-                if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= tolerance {
-                    return Ok(());
-                }
-            }
-            last = norm;
-        }
-        Err(Failure::NotConverged { unknown: worst })
     }
 
     /// Change of velocities and differential states against the past: `γ` times their rates.
@@ -392,6 +246,12 @@ impl Dynamics {
     fn complete(&mut self, step: &bdf::Step<'_>) {
         self.system.evaluate(&self.state, false);
         self.take_change(step);
+        for (rate, change) in self.rates.iter_mut().zip(&self.change) {
+            *rate = change / step.gamma;
+        }
+        if self.present == Index::One {
+            self.return_to_constraints();
+        }
         self.system
             .set_solution(&self.change, 1.0 / step.gamma, &self.multipliers);
         let range = self.state.bristle_range();
@@ -406,9 +266,17 @@ impl Dynamics {
         self.system
             .write_powers(&self.multipliers, &mut self.powers);
         let range = self.state.work_range();
-        let works = &mut self.state.values[range];
-        self.quadrature
-            .works(step.time, step.order, &self.powers, works);
+        let works = &mut self.state.values[range.clone()];
+        if self.present == Index::One {
+            // The order of the step is that of what the powers follow.
+            let past = step.history[range].iter();
+            for ((work, past), power) in works.iter_mut().zip(past).zip(&self.powers) {
+                *work = past + step.gamma * power;
+            }
+        } else {
+            self.quadrature
+                .works(step.time, step.order, &self.powers, works);
+        }
         let range = self.state.share_range();
         let shares = &mut self.state.values[range];
         self.switching.write_shares(&mut self.system, shares);
@@ -425,8 +293,8 @@ impl Dynamics {
         }
         self.state.normalize();
         match self.present {
-            Formulation::Si2 => self.positions_from_velocities(step),
-            Formulation::I3 => {
+            Index::One | Index::StabilisedTwo => self.positions_from_velocities(step),
+            Index::Three => {
                 self.velocities_from_positions(step);
                 Ok(())
             }
@@ -448,9 +316,9 @@ impl bdf::System for Dynamics {
             MatrixUse::Kept
         };
         self.present = if self.index3_left > 0 {
-            Formulation::I3
+            Index::Three
         } else {
-            self.formulation
+            self.formulation.index()
         };
         loop {
             let solved = self.load(step, y);
@@ -463,9 +331,9 @@ impl bdf::System for Dynamics {
                 // Where the mechanism passes a position at which constraints depend on others,
                 // velocity constraints are nearly singular, positions alone are not.
                 (_, Failure::NotConverged { .. } | Failure::Singular(_))
-                    if self.present == Formulation::Si2 =>
+                    if self.present == Index::StabilisedTwo =>
                 {
-                    self.present = Formulation::I3;
+                    self.present = Index::Three;
                     self.index3_left = INDEX3_STEPS;
                     MatrixUse::Renewed
                 }
@@ -476,7 +344,7 @@ impl bdf::System for Dynamics {
                 }
             };
         }
-        if self.present != self.formulation {
+        if self.present != self.formulation.index() {
             self.work.index3_steps += 1;
             self.index3_left -= 1;
             if self.index3_left == 0 {
@@ -505,7 +373,7 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        if self.present == Formulation::Si2 {
+        if self.present != Index::Three {
             let velocities = POSITIONS * bodies..self.state.motions();
             for (k, d) in difference[velocities].iter().enumerate() {
                 let unit = if k % VELOCITIES < 3 {
@@ -537,6 +405,23 @@ impl bdf::System for Dynamics {
         norm.max(self.switching.norm(&difference[self.state.share_range()]))
     }
 
+    fn slope(&self, step: &bdf::Step<'_>, y: &[f64], slope: &mut [f64]) {
+        for ((slope, y), past) in slope.iter_mut().zip(y).zip(step.history) {
+            *slope = (y - past) / step.gamma;
+        }
+        self.state.write_position_slopes(y, slope);
+        slope[self.state.rate_range()].copy_from_slice(&self.rates);
+        slope[self.state.work_range()].copy_from_slice(&self.powers);
+    }
+
+    fn positions(&self) -> Range<usize> {
+        0..POSITIONS * self.state.bodies()
+    }
+
+    fn curvature(&self, y: &[f64], slope: &[f64], curvature: &mut [f64]) {
+        self.state.write_position_curvatures(y, slope, curvature);
+    }
+
     fn judge(&mut self, step: &bdf::Step<'_>, values: &[f64], within: Within<'_>) -> Verdict {
         if self.switching.is_empty() {
             return Verdict::Accept;
@@ -551,6 +436,14 @@ impl bdf::System for Dynamics {
         // The step solved last is the one accepted: everything is evaluated there.
         self.quadrature
             .accept(step.time, self.state.works(), &self.powers);
+        if self.formulation.alpha() != 0.0 {
+            // M u̇/(1 + α) = F + lag F₀ has been solved.
+            self.system.mass_times(&self.rates, &mut self.momentum);
+            let (inertia, lag) = (self.inertia_part(), self.lag());
+            for (force, momentum) in self.past_force.iter_mut().zip(&self.momentum) {
+                *force = inertia * momentum - lag * *force;
+            }
+        }
         self.previous.clone_from(&self.system.history.frictions);
         self.system.accept_frictions(&self.multipliers, step.size);
         self.system.remember_angles();
@@ -558,8 +451,8 @@ impl bdf::System for Dynamics {
         raise(&mut self.state_scales, self.state.states());
         if !self.switching.is_empty() {
             self.switching.accepted(&mut self.system);
-            let rates = self.change.iter().map(|change| change / step.gamma);
-            self.switching.begin(rates, &self.multipliers);
+            self.switching
+                .begin(self.rates.iter().copied(), &self.multipliers);
         }
     }
 }

@@ -21,12 +21,12 @@ impl Dynamics {
             let first = VELOCITIES * body;
             for k in 0..3 {
                 self.state.values[place + k] = step.history[place + k]
-                    + step.gamma * self.state.velocities()[first + k]
+                    + step.position_gamma * self.state.velocities()[first + k]
                     + self.shift[first + k];
             }
             let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
             let omega = Vector3::from_column_slice(&self.state.velocities()[first + 3..first + 6]);
-            let half = 0.5 * step.gamma * omega;
+            let half = 0.5 * step.position_gamma * omega;
             let norm = past.norm_squared();
             let scalar = norm - half.norm_squared();
             if !(scalar > 0.25 * norm) {
@@ -52,10 +52,10 @@ impl Dynamics {
             let q = self.state.orientation(body);
             let past = Quaternion::from_slice(&step.history[place + 3..place + POSITIONS]);
             let back = Quaternion { w: q.w, v: -q.v };
-            let omega = (-2.0 / step.gamma) * past.times(&back).v;
+            let omega = (-2.0 / step.position_gamma) * past.times(&back).v;
             let velocity = (self.state.centre(body)
                 - Vector3::from_column_slice(&step.history[place..place + 3]))
-                / step.gamma;
+                / step.position_gamma;
             let u = &mut self.state.velocities_mut()[VELOCITIES * body..VELOCITIES * (body + 1)];
             u[..3].copy_from_slice(velocity.as_slice());
             u[3..].copy_from_slice(omega.as_slice());

@@ -1,18 +1,16 @@
 //! Dynamics between output times: steps, outputs within them, restarts.
 
-use nalgebra::Vector3;
-use numerics::bdf::{self, Bdf};
+use numerics::bdf::{self, Bdf, Family};
 
 use super::failure::jammed;
 use super::report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
 use super::{Engine, Simulation};
-use crate::dynamics::{Dynamics, Formulation, Sliding, Work};
+use crate::dynamics::{Dynamics, Index, Sliding, Work};
 use crate::instant::{Failure, Instant};
 use crate::model::Label;
-use crate::rotation::Quaternion;
-use crate::state::{POSITIONS, VELOCITIES};
+use crate::state::POSITIONS;
 
-/// Part of the error tolerance that the positions of I3 may use. Its test leaves velocities out,
+/// Part of the error tolerance that the positions of index 3 may use. Its test leaves velocities out,
 /// which lose an order; with this part they, too, stay near the tolerance.
 const INDEX3_SHARE: f64 = 0.1;
 
@@ -34,6 +32,7 @@ impl Simulation {
         observer: &mut impl Observer,
     ) -> Result<Ending, RunError> {
         let limits = bdf::Settings {
+            family: settings.formulation.family(),
             highest_order: settings.highest_order,
             longest_step: settings.longest_step,
             shortest_step: settings.shortest_step,
@@ -81,9 +80,9 @@ impl Simulation {
         self.refuse_jam(jam)?;
         self.system.observe_loads(&self.multipliers);
         dynamics.start(&self.system, settings.formulation, self.scales);
-        dynamics.tolerance = match settings.formulation {
-            Formulation::Si2 => settings.error,
-            Formulation::I3 => INDEX3_SHARE * settings.error,
+        dynamics.tolerance = match settings.formulation.index() {
+            Index::One | Index::StabilisedTwo => settings.error,
+            Index::Three => INDEX3_SHARE * settings.error,
         };
         dynamics.newton_iterations = settings.newton_iterations;
         dynamics.steps = [settings.shortest_step, settings.longest_step];
@@ -111,13 +110,17 @@ impl Simulation {
                 // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
                 // has only positions to meet.
                 let further = bdf.time() > crossed;
-                if settings.formulation == Formulation::I3 || !further {
+                if settings.formulation.index() == Index::Three || !further {
                     let jam = gains.explain(&mut dynamics.system, &dynamics.multipliers);
                     return Err(
                         jam.map_or_else(|| self.run_error(&error), |jam| jammed(bdf.time(), &jam))
                     );
                 }
                 crossed = bdf.time();
+                bdf.set_settings(bdf::Settings {
+                    family: Family::BackwardDifferences,
+                    ..limits
+                });
                 self.restart(bdf, dynamics, instant, settings)?;
                 dynamics.cross();
                 crossing = true;
@@ -157,6 +160,7 @@ impl Simulation {
             // Only now: outputs within the step needed its past.
             if crossing && !dynamics.crosses() {
                 crossing = false;
+                bdf.set_settings(limits);
                 self.restart(bdf, dynamics, instant, settings)?;
             }
             if dynamics.is_at_jump() {
@@ -248,7 +252,8 @@ impl Simulation {
         dynamics.multipliers.copy_from_slice(&self.multipliers);
         let powers = &slope[self.state.work_range()];
         dynamics.start_works(self.state.time, self.state.works(), powers);
-        bdf.start(self.state.time, &self.state.values, slope, first);
+        dynamics.start_rates(&self.accelerations);
+        bdf.start(dynamics, self.state.time, &self.state.values, slope, first);
     }
 
     /// Brings the state onto the constraints and solves its accelerations and reactions.
@@ -419,20 +424,11 @@ impl Simulation {
 
     /// Time derivative of the integrator's vector, at the instant solved last.
     fn slope(&mut self) -> Vec<f64> {
-        let (state, values) = (&self.state, &self.state.values);
-        let mut slope = Vec::with_capacity(values.len());
-        for (body, u) in state.velocities().chunks_exact(VELOCITIES).enumerate() {
-            slope.extend_from_slice(&u[..3]);
-            let half = Quaternion {
-                w: 0.0,
-                v: 0.5 * Vector3::from_column_slice(&u[3..]),
-            };
-            let rate = half.times(&state.orientation(body));
-            slope.extend_from_slice(&[rate.w, rate.v.x, rate.v.y, rate.v.z]);
-        }
-        slope.extend_from_slice(&self.accelerations);
+        let state = &self.state;
+        let mut slope = vec![0.0; state.values.len()];
+        state.write_position_slopes(&state.values, &mut slope);
+        slope[state.rate_range()].copy_from_slice(&self.accelerations);
         let (bristles, works) = (state.bristle_range(), state.work_range());
-        slope.resize(values.len(), 0.0);
         self.system
             .write_bristles(&self.multipliers, None, Some(&mut slope[bristles]));
         self.system

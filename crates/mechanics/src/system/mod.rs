@@ -59,6 +59,9 @@ pub(crate) enum Rows {
     Position,
     /// `(G + γ ∂(G u)/∂x) δu`: velocities.
     Velocity,
+    /// `(G + 2 γ ∂(G u)/∂x) δu`: accelerations, whose `Ġ u` has the velocities twice; what goes with
+    /// `γ²` is left out.
+    Acceleration,
 }
 
 /// History that the equations need beside the state.

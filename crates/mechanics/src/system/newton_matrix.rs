@@ -27,15 +27,21 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// Those of a step with `δx = γ δu`; at zero those of an instant.
-    pub(crate) fn step(gamma: f64) -> Self {
+    /// Those of a step whose rates are `δu/γ` and whose positions move by `δx = γ_x δu`, with a part
+    /// of the inertia.
+    pub(crate) fn step(inertia: f64, gamma: f64, position_gamma: f64) -> Self {
         Self {
-            mass: 1.0,
+            mass: inertia,
             velocity: gamma,
-            position: gamma * gamma,
+            position: gamma * position_gamma,
             state: gamma,
             rate: 1.0,
         }
+    }
+
+    /// Those of an instant.
+    pub(crate) fn instant() -> Self {
+        Self::step(1.0, 0.0, 0.0)
     }
 
     /// Those of an equilibrium, where rates are zero: the stiffness, with a part of mass and damping
@@ -74,7 +80,7 @@ impl System {
         multipliers: &[f64],
         matrix: &mut Matrix,
     ) {
-        let weights = Weights::step(0.0);
+        let weights = Weights::instant();
         self.assemble_without_friction(Rows::Position, weights, zero, multipliers, matrix);
         matrix.compress();
     }

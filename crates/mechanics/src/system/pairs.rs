@@ -171,9 +171,10 @@ impl System {
     ) {
         let local = &self.evaluated[place].local;
         let mut moved = *local;
-        if self.moves(rows, place) {
+        let velocities = self.velocities_in(rows, place);
+        if velocities > 0.0 {
             let stiffness = equation.stiffness(pair, &self.model.curves);
-            moved += weights.velocity * stiffness.rate_change(pair);
+            moved += velocities * weights.velocity * stiffness.rate_change(pair);
         }
         let row = self.rate_count() + row;
         for (side, body) in [pair.i.body, pair.j.body].into_iter().enumerate() {
@@ -189,9 +190,13 @@ impl System {
         }
     }
 
-    /// Whether the row of a constraint in the Newton matrix changes with the positions.
-    pub(super) fn moves(&self, rows: Rows, place: usize) -> bool {
-        let level = self.constraints[place].level;
-        rows == Rows::Velocity && level == Level::Position || level == Level::Velocity
+    /// How often the velocities stand in the equation whose derivatives make the row of a constraint in
+    /// the Newton matrix, so that the row changes with the positions.
+    pub(super) fn velocities_in(&self, rows: Rows, place: usize) -> f64 {
+        match (self.constraints[place].level, rows) {
+            (Level::Position, Rows::Position) | (Level::Acceleration, _) => 0.0,
+            (Level::Velocity, Rows::Position) | (_, Rows::Velocity) => 1.0,
+            (_, Rows::Acceleration) => 2.0,
+        }
     }
 }

@@ -81,12 +81,12 @@ fn formulas_converge_with_their_order() {
                         0.25,
                         "observed within 0.06, and 0.37 where rounding begins",
                     ),
-                    (Formulation::I3, "position") => (
+                    (_, "position") => (
                         mean.min(expected),
                         1.5,
                         "from below: velocities may cost an order",
                     ),
-                    (Formulation::I3, _) => (
+                    (_, _) => (
                         mean.min(expected),
                         1.15,
                         "from below: velocities of I3 are differences of positions: what Newton's \
@@ -96,6 +96,54 @@ fn formulas_converge_with_their_order() {
                 let quantity = format!("mean observed order of the {quantity}");
                 claims.push(case.values(&quantity, &[ours], &[expected], tolerance, why));
             }
+        }
+    }
+    check(&claims);
+}
+
+#[test]
+fn methods_of_second_order_and_formulas_of_adams_converge_with_their_order() {
+    let mut exact = assembled(pendulum());
+    let tight = settings(Formulation::Si2, 1e-13, 0.01);
+    go_on(&mut exact, &[END], &tight, |_| {});
+    let exact = end_of(&exact);
+    let hht = Formulation::Hht { alpha: -0.3 };
+    let newmark = Formulation::Newmark {
+        beta: 0.36,
+        gamma: 0.7,
+    };
+    // Newmark's damping, γ above ½, costs an order.
+    let mut cases = vec![(hht, 2, 2, 4e-3), (newmark, 2, 1, 4e-3)];
+    // Between these orders the first steps, of lower order, leave errors as large as the others.
+    for (order, h) in [(2, 4e-3), (8, 3e-2)] {
+        cases.push((Formulation::Adams, order, order, h));
+    }
+    let mut claims = Vec::new();
+    for (formulation, highest, order, coarse) in cases {
+        let runs = [1.0, 0.5, 0.25].map(|part| {
+            let mut settings = settings(formulation, 1e-2, part * coarse);
+            // Just permits the step, so that Newton's iteration leaves as much less.
+            settings.error = (12.0 * part * coarse).powi(highest as i32 + 1);
+            settings.highest_order = highest;
+            settings.first_step = Some(1e-3 * part * coarse);
+            let mut simulation = assembled(pendulum());
+            go_on(&mut simulation, &[END], &settings, |_| {});
+            end_of(&simulation)
+        });
+        for (n, quantity) in ["position", "velocity", "reaction"].into_iter().enumerate() {
+            let errors = runs.map(|run| (run[n] - exact[n]).norm());
+            let mean = (errors[0] / errors[2]).log2() / 2.0;
+            let case = Case {
+                section: Section::Integration,
+                id: &format!("{formulation:?}, order {highest}"),
+                model: "point pendulum of 1 m to 2 s, steps halved twice",
+                source: "order of the method",
+                covers: &[],
+            };
+            let quantity = format!("mean observed order of the {quantity}");
+            let why = "from below: the first steps are small, and errors have several parts";
+            let ours = mean.min(order as f64);
+            claims.push(case.values(&quantity, &[ours], &[order as f64], 0.35, why));
         }
     }
     check(&claims);

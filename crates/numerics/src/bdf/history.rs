@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
-/// Highest order of the backward differentiation formulas in use; beyond 5 they are hardly stable.
-pub(super) const HIGHEST_ORDER: usize = 5;
-/// Nodes kept: order + 2, so that the error of the next higher order can be estimated.
-const NODES: usize = HIGHEST_ORDER + 2;
+/// Nodes that a history can keep.
+pub(super) const MOST_NODES: usize = 14;
 
 /// Past values `y(t_0), y(t_1), …` (newest first) in Newton's form: `difference(j)` is the divided
 /// difference `y[t_0, …, t_j]`.
@@ -16,51 +14,61 @@ const NODES: usize = HIGHEST_ORDER + 2;
 #[derive(Clone, Debug)]
 pub struct History {
     size: usize,
-    times: [f64; NODES],
+    /// How many nodes are kept.
+    nodes: usize,
+    times: [f64; MOST_NODES],
     count: usize,
-    /// `NODES` vectors of `size` values.
+    /// `nodes` vectors of `size` values.
     differences: Vec<f64>,
     work: Vec<f64>,
 }
 
 impl History {
-    /// An empty past for `size` values.
+    /// An empty past for `size` values that keeps `nodes` of them, at most 14.
     #[must_use]
-    pub fn new(size: usize) -> Self {
+    pub fn new(size: usize, nodes: usize) -> Self {
+        assert!(nodes <= MOST_NODES);
         Self {
             size,
-            times: [0.0; NODES],
+            nodes,
+            times: [0.0; MOST_NODES],
             count: 0,
-            differences: vec![0.0; size * NODES],
+            differences: vec![0.0; size * nodes],
             work: vec![0.0; size],
         }
     }
 
     /// Forgets the past and starts from a value and a slope.
     pub fn start(&mut self, time: f64, value: &[f64], slope: &[f64]) {
-        self.times = [time; NODES];
+        self.start_without_slope(time, value);
         self.count = 2;
-        self.differences[..self.size].copy_from_slice(value);
         self.differences[self.size..2 * self.size].copy_from_slice(slope);
+    }
+
+    /// Forgets the past and starts from a value alone.
+    pub fn start_without_slope(&mut self, time: f64, value: &[f64]) {
+        self.times = [time; MOST_NODES];
+        self.count = 1;
+        self.differences[..self.size].copy_from_slice(value);
     }
 
     /// Appends a value at a later time.
     pub fn push(&mut self, time: f64, value: &[f64]) {
-        let kept = (self.count + 1).min(NODES);
+        let kept = (self.count + 1).min(self.nodes);
         self.work.copy_from_slice(value);
         // `work` runs through the new differences; each replaces the old one of its place, which
         // the next one still needs.
         for j in 0..kept {
             let row = j * self.size..(j + 1) * self.size;
             let last = j + 1 == kept;
-            let span = time - self.times[j.min(NODES - 1)];
+            let span = time - self.times[j.min(self.nodes - 1)];
             for (new, old) in self.work.iter_mut().zip(&mut self.differences[row]) {
                 let next = if last { 0.0 } else { (*new - *old) / span };
                 *old = *new;
                 *new = next;
             }
         }
-        self.times.copy_within(0..NODES - 1, 1);
+        self.times.copy_within(0..MOST_NODES - 1, 1);
         self.times[0] = time;
         self.count = kept;
     }
@@ -112,10 +120,15 @@ impl History {
 
     /// Value at `time` of the polynomial through the newest `degree + 1` nodes.
     pub fn evaluate(&self, degree: usize, time: f64, value: &mut [f64]) {
-        value.copy_from_slice(self.difference(degree));
+        self.evaluate_range(degree, time, 0..self.size, value);
+    }
+
+    /// The same of the values in `range`.
+    pub fn evaluate_range(&self, degree: usize, time: f64, range: Range<usize>, value: &mut [f64]) {
+        value.copy_from_slice(&self.difference(degree)[range.clone()]);
         for j in (0..degree).rev() {
             let span = time - self.times[j];
-            for (v, d) in value.iter_mut().zip(self.difference(j)) {
+            for (v, d) in value.iter_mut().zip(&self.difference(j)[range.clone()]) {
                 *v = *v * span + d;
             }
         }
@@ -135,6 +148,22 @@ impl History {
             rate = rate * span + product;
             product *= span;
         }
+    }
+
+    /// Adds `scale` times the integral over time from the newest node to `time` of the polynomial
+    /// through the newest `weights.len()` nodes, where `weights` are the [`integrals`] to there.
+    pub fn add_integral(&self, weights: &[f64], integral: &mut [f64]) {
+        for (j, weight) in weights.iter().enumerate() {
+            for (sum, d) in integral.iter_mut().zip(self.difference(j)) {
+                *sum += weight * d;
+            }
+        }
+    }
+
+    /// The nodes, newest first.
+    #[must_use]
+    pub fn nodes(&self) -> &[f64] {
+        &self.times[..self.count]
     }
 
     /// The formula's `ŷ = w − γ ẇ` at `time`, with `w` through the newest `order` nodes.
@@ -163,7 +192,7 @@ mod tests {
     fn polynomials_are_reproduced_with_their_slopes() {
         let f = |t: f64| 2.0 + t - 3.0 * t * t + 0.5 * t * t * t;
         let slope = |t: f64| 1.0 - 6.0 * t + 1.5 * t * t;
-        let mut history = History::new(1);
+        let mut history = History::new(1, 7);
         history.start(0.1, &[f(0.1)], &[slope(0.1)]);
         for t in [0.15, 0.3, 0.35] {
             history.push(t, &[f(t)]);
@@ -184,7 +213,7 @@ mod tests {
 
     #[test]
     fn the_double_node_gives_the_trapezoidal_rule() {
-        let mut history = History::new(1);
+        let mut history = History::new(1, 7);
         history.start(0.0, &[1.0], &[2.0]);
         let gamma = history.gamma(2, 0.1);
         let mut past = [0.0];

@@ -2,13 +2,21 @@
 
 use std::ops::Range;
 
-use super::history::HIGHEST_ORDER;
-use super::{History, Step, System, Verdict};
+use super::adams::{error_integral, integrals};
+use super::history::MOST_NODES;
+use super::{Family, History, Step, System, Verdict};
+
+/// Nodes of values kept: order + 2, so that the error of the next higher order can be estimated.
+const VALUE_NODES: usize = Family::BackwardDifferences.highest_order() + 2;
+/// Nodes of slopes kept for the formulas of Adams: order + 1 for the same reason.
+const SLOPE_NODES: usize = Family::Adams.highest_order() + 1;
 
 /// Limits that the caller sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Highest order to use, 1 to 5.
+    /// The formulas.
+    pub family: Family,
+    /// Highest order to use, from one to that of the family.
     pub highest_order: usize,
     /// Longest step.
     pub longest_step: f64,
@@ -51,7 +59,7 @@ pub enum Error<F> {
 /// The integrator: a past, an order and a step size.
 ///
 /// ```
-/// use numerics::bdf::{Bdf, Settings, Step, System};
+/// use numerics::bdf::{Bdf, Family, Settings, Step, System};
 /// struct Decay;
 /// impl System for Decay {
 ///     type Failure = ();
@@ -65,9 +73,14 @@ pub enum Error<F> {
 ///     }
 ///     fn accepted(&mut self, _: &Step<'_>, _: &[f64]) {}
 /// }
-/// let settings = Settings { highest_order: 5, longest_step: 1.0, shortest_step: 1e-12 };
+/// let settings = Settings {
+///     family: Family::BackwardDifferences,
+///     highest_order: 5,
+///     longest_step: 1.0,
+///     shortest_step: 1e-12,
+/// };
 /// let mut bdf = Bdf::new(1, settings);
-/// bdf.start(0.0, &[1.0], &[-1.0], 1e-4);
+/// bdf.start(&Decay, 0.0, &[1.0], &[-1.0], 1e-4);
 /// while bdf.time() < 1.0 {
 ///     bdf.advance(&mut Decay, 1.0).unwrap();
 /// }
@@ -76,7 +89,9 @@ pub enum Error<F> {
 #[derive(Clone, Debug)]
 pub struct Bdf {
     settings: Settings,
-    history: History,
+    values: History,
+    /// Slopes of the past, empty where the family needs none.
+    slopes: History,
     order: usize,
     size: f64,
     /// Order, step by step, has only risen since the last start.
@@ -88,8 +103,23 @@ pub struct Bdf {
     formula: Vec<f64>,
     prediction: Vec<f64>,
     value: Vec<f64>,
+    /// Slope of the new value.
+    slope: Vec<f64>,
+    /// Second derivatives of the newest value, for the formulas of Newmark.
+    curvature: Vec<f64>,
+    /// What the error estimates come from: the new value less the prediction, or, with the formulas
+    /// of Adams, the divided difference of slopes whose order is that of the prediction.
     error: Vec<f64>,
     neighbour: Vec<f64>,
+}
+
+/// The formula of a step: `ẏ = (y − ŷ)/γ`.
+#[derive(Clone, Copy)]
+struct Formula {
+    gamma: f64,
+    position_gamma: f64,
+    /// Order of the prediction, that of the formula where the past allows it.
+    predictor: usize,
 }
 
 /// Error estimate at an order, and the step size that would just pass with a margin.
@@ -103,9 +133,10 @@ impl Bdf {
     /// An integrator for `size` values.
     #[must_use]
     pub fn new(size: usize, settings: Settings) -> Self {
-        Self {
+        let mut new = Self {
             settings,
-            history: History::new(size),
+            values: History::new(size, VALUE_NODES),
+            slopes: History::new(0, 0),
             order: 1,
             size: 0.0,
             starting: true,
@@ -116,21 +147,50 @@ impl Bdf {
             formula: vec![0.0; size],
             prediction: vec![0.0; size],
             value: vec![0.0; size],
+            slope: vec![0.0; size],
+            curvature: Vec::new(),
             error: vec![0.0; size],
             neighbour: vec![0.0; size],
+        };
+        new.set_settings(settings);
+        new
+    }
+
+    /// Replaces the limits, which hold from the next step on, and the family of formulas; another
+    /// family needs a start.
+    pub fn set_settings(&mut self, settings: Settings) {
+        self.settings = settings;
+        let size = self.values.size();
+        let (slopes, nodes, curvatures) = match settings.family {
+            Family::BackwardDifferences => (0, 0, 0),
+            Family::Adams => (size, SLOPE_NODES, 0),
+            Family::Newmark(_) => (size, 1, size),
+        };
+        if (self.slopes.size(), self.curvature.len()) != (slopes, curvatures) {
+            self.slopes = History::new(slopes, nodes);
+            self.curvature = vec![0.0; curvatures];
         }
     }
 
-    /// Replaces the limits; they hold from the next step on.
-    pub fn set_settings(&mut self, settings: Settings) {
-        self.settings = settings;
-    }
-
     /// Forgets the past and starts from a value, its slope and a first step size to try.
-    pub fn start(&mut self, time: f64, value: &[f64], slope: &[f64], size: f64) {
-        self.history.start(time, value, slope);
+    pub fn start<S: System>(
+        &mut self,
+        system: &S,
+        time: f64,
+        value: &[f64],
+        slope: &[f64],
+        size: f64,
+    ) {
+        self.values.start(time, value, slope);
+        if self.slopes.size() > 0 {
+            self.slopes.start_without_slope(time, slope);
+        }
         self.value.copy_from_slice(value);
-        self.order = self.settings.highest_order.clamp(1, 2);
+        self.slope.copy_from_slice(slope);
+        if !self.curvature.is_empty() {
+            system.curvature(value, slope, &mut self.curvature);
+        }
+        self.order = self.highest_order().min(2);
         self.size = size;
         self.starting = true;
         self.steps_at_order = 0;
@@ -142,7 +202,7 @@ impl Bdf {
     /// Time of the last accepted step.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.history.time()
+        self.values.time()
     }
 
     /// Values at the last accepted step.
@@ -171,20 +231,145 @@ impl Bdf {
 
     /// Values at `time` within the last accepted step, to the order of the method.
     pub fn interpolate(&self, time: f64, value: &mut [f64]) {
-        let degree = self.order.min(self.history.count() - 1);
-        self.history.evaluate(degree, time, value);
+        match self.settings.family {
+            Family::BackwardDifferences | Family::Newmark(_) => {
+                self.values.evaluate(self.degree(), time, value);
+            }
+            Family::Adams => {
+                let mut weights = [0.0; MOST_NODES];
+                let weights = &mut weights[..=self.degree()];
+                integrals(self.slopes.nodes(), [self.time(), time], weights);
+                value.copy_from_slice(&self.value);
+                self.slopes.add_integral(weights, value);
+            }
+        }
     }
 
     /// Slope of that interpolation, of the values in `range`.
     pub fn interpolate_slope(&self, time: f64, range: Range<usize>, slope: &mut [f64]) {
-        let degree = self.order.min(self.history.count() - 1);
-        self.history.slope(degree, time, range, slope);
+        match self.settings.family {
+            Family::BackwardDifferences | Family::Newmark(_) => {
+                self.values.slope(self.degree(), time, range, slope);
+            }
+            Family::Adams => self
+                .slopes
+                .evaluate_range(self.degree(), time, range, slope),
+        }
+    }
+
+    /// Degree of the polynomial through the last values, or through the last slopes.
+    fn degree(&self) -> usize {
+        let (wanted, history) = match self.settings.family {
+            Family::BackwardDifferences => (self.order, &self.values),
+            // One above the order: a free gift, and smoother.
+            Family::Newmark(_) => (self.order + 1, &self.values),
+            Family::Adams => (self.order, &self.slopes),
+        };
+        wanted.min(history.count() - 1)
     }
 
     /// Factor `γ` of the formula in the last accepted step; zero before the first.
     #[must_use]
     pub fn last_gamma(&self) -> f64 {
         self.last_gamma
+    }
+
+    /// Writes formula and prediction of a step to `time` at the present order.
+    fn formulate<S: System>(&mut self, system: &S, time: f64) -> Formula {
+        let order = self.order;
+        match self.settings.family {
+            Family::BackwardDifferences => {
+                let gamma = self.values.gamma(order, time);
+                let predictor = order.min(self.values.count() - 1);
+                self.values.formula(order, time, gamma, &mut self.formula);
+                self.values.evaluate(predictor, time, &mut self.prediction);
+                Formula {
+                    gamma,
+                    position_gamma: gamma,
+                    predictor,
+                }
+            }
+            Family::Adams => {
+                let predictor = order.min(self.slopes.count());
+                let mut weights = [0.0; MOST_NODES];
+                let nodes = self.slopes.nodes();
+                integrals(
+                    nodes,
+                    [self.time(), time],
+                    &mut weights[..=predictor.max(order - 1)],
+                );
+                self.values.evaluate(0, time, &mut self.prediction);
+                self.formula.copy_from_slice(&self.prediction);
+                let predicting = &weights[..predictor];
+                self.slopes.add_integral(predicting, &mut self.prediction);
+                let gamma = weights[order - 1] / self.slopes.product(order - 1, time);
+                for (j, weight) in weights[..order - 1].iter_mut().enumerate() {
+                    *weight -= gamma * self.slopes.product(j, time);
+                }
+                self.slopes
+                    .add_integral(&weights[..order - 1], &mut self.formula);
+                Formula {
+                    gamma,
+                    position_gamma: gamma,
+                    predictor,
+                }
+            }
+            Family::Newmark(newmark) => {
+                let size = time - self.time();
+                let (beta, gamma) = (newmark.beta, newmark.gamma);
+                let positions = system.positions();
+                let last = self.values.difference(0);
+                let slopes = self.slopes.difference(0);
+                for (k, (y, slope)) in last.iter().zip(slopes).enumerate() {
+                    self.prediction[k] = y + size * slope;
+                    self.formula[k] = y + size * (1.0 - gamma) * slope;
+                    if positions.contains(&k) {
+                        let bend = size * size * self.curvature[k];
+                        self.prediction[k] += 0.5 * bend;
+                        self.formula[k] =
+                            y + size * (1.0 - beta / gamma) * slope + (0.5 - beta / gamma) * bend;
+                    }
+                }
+                Formula {
+                    gamma: gamma * size,
+                    position_gamma: beta / gamma * size,
+                    predictor: order,
+                }
+            }
+        }
+    }
+
+    /// Takes what the error estimates come from at the value that the step was solved for.
+    fn take_error<S: System>(&mut self, system: &S, formula: Formula, time: f64) {
+        let step = Step {
+            time,
+            size: time - self.time(),
+            order: self.order,
+            gamma: formula.gamma,
+            position_gamma: formula.position_gamma,
+            history: &self.formula,
+            prediction: &self.prediction,
+        };
+        match self.settings.family {
+            Family::BackwardDifferences | Family::Newmark(_) => {
+                let pairs = self.value.iter().zip(&self.prediction);
+                for (e, (v, p)) in self.error.iter_mut().zip(pairs) {
+                    *e = v - p;
+                }
+                if self.settings.family != Family::BackwardDifferences {
+                    system.slope(&step, &self.value, &mut self.slope);
+                }
+            }
+            Family::Adams => {
+                system.slope(&step, &self.value, &mut self.slope);
+                let degree = formula.predictor - 1;
+                self.slopes.evaluate(degree, time, &mut self.error);
+                let product = self.slopes.product(formula.predictor, time);
+                for (e, slope) in self.error.iter_mut().zip(&self.slope) {
+                    *e = (slope - *e) / product;
+                }
+            }
+        }
     }
 
     /// Takes one step, not beyond `stop`; none where the system abandons it.
@@ -215,16 +400,15 @@ impl Bdf {
                 (wanted, start + wanted)
             };
             let order = self.order;
-            let gamma = self.history.gamma(order, time);
-            let predictor = order.min(self.history.count() - 1);
-            self.history.formula(order, time, gamma, &mut self.formula);
-            self.history.evaluate(predictor, time, &mut self.prediction);
+            let formula = self.formulate(system, time);
+            let (gamma, predictor) = (formula.gamma, formula.predictor);
             self.value.copy_from_slice(&self.prediction);
             let step = Step {
                 time,
                 size,
                 order,
                 gamma,
+                position_gamma: formula.position_gamma,
                 history: &self.formula,
                 prediction: &self.prediction,
             };
@@ -237,14 +421,12 @@ impl Bdf {
                     self.lower_order();
                 }
                 if self.size < self.settings.shortest_step {
-                    self.history.evaluate(0, start, &mut self.value);
+                    self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Failed { time: start, cause });
                 }
                 continue;
             }
-            for ((e, v), p) in self.error.iter_mut().zip(&self.value).zip(&self.prediction) {
-                *e = v - p;
-            }
+            self.take_error(system, formula, time);
             let here = self.estimate(system, predictor, predictor, time, size);
             if !(here.error <= 1.0) {
                 rejections += 1;
@@ -260,34 +442,26 @@ impl Bdf {
                 };
                 self.size = size * shrink.clamp(0.1, 0.9);
                 if self.size < self.settings.shortest_step {
-                    self.history.evaluate(0, start, &mut self.value);
+                    self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Inaccurate { time: start, size });
                 }
                 continue;
             }
             let below = (predictor > 1)
                 .then(|| self.estimate(system, predictor, predictor - 1, time, size));
-            let above = (predictor == order
-                && order < self.highest_order()
-                && self.history.count() > order + 1)
-                .then(|| self.estimate(system, predictor, order + 1, time, size));
+            let above =
+                (predictor == order && order < self.highest_order() && self.known_orders() > order)
+                    .then(|| self.estimate(system, predictor, order + 1, time, size));
             let step = Step {
                 time,
                 size,
                 order,
                 gamma,
+                position_gamma: formula.position_gamma,
                 history: &self.formula,
                 prediction: &self.prediction,
             };
-            let history = &self.history;
-            let span = history.product(predictor + 1, time);
-            let mut within = |t: f64, out: &mut [f64]| {
-                history.evaluate(predictor, t, out);
-                let share = history.product(predictor + 1, t) / span;
-                for (out, error) in out.iter_mut().zip(&self.error) {
-                    *out += share * error;
-                }
-            };
+            let mut within = |t: f64, out: &mut [f64]| self.within(predictor, time, t, out);
             match system.judge(&step, &self.value, &mut within) {
                 Verdict::Accept => {}
                 Verdict::EndAt(time) => {
@@ -295,12 +469,18 @@ impl Bdf {
                     continue;
                 }
                 Verdict::Abandon => {
-                    self.history.evaluate(0, start, &mut self.value);
+                    self.values.evaluate(0, start, &mut self.value);
                     return Ok(());
                 }
             }
             system.accepted(&step, &self.value);
-            self.history.push(time, &self.value);
+            self.values.push(time, &self.value);
+            if self.slopes.size() > 0 {
+                self.slopes.push(time, &self.slope);
+            }
+            if !self.curvature.is_empty() {
+                system.curvature(&self.value, &self.slope, &mut self.curvature);
+            }
             self.statistics.steps += 1;
             self.last_size = size;
             self.last_gamma = gamma;
@@ -310,7 +490,64 @@ impl Bdf {
     }
 
     fn highest_order(&self) -> usize {
-        self.settings.highest_order.clamp(1, HIGHEST_ORDER)
+        let most = self.settings.family.highest_order();
+        self.settings.highest_order.clamp(1, most)
+    }
+
+    /// Orders whose error the past allows to estimate.
+    fn known_orders(&self) -> usize {
+        match self.settings.family {
+            Family::BackwardDifferences | Family::Newmark(_) => self.values.count() - 1,
+            Family::Adams => self.slopes.count(),
+        }
+    }
+
+    /// Values at `t` within a step to `time` that has been solved but not yet accepted.
+    fn within(&self, predictor: usize, time: f64, t: f64, out: &mut [f64]) {
+        match self.settings.family {
+            Family::BackwardDifferences => {
+                self.values.evaluate(predictor, t, out);
+                let count = predictor + 1;
+                let share = self.values.product(count, t) / self.values.product(count, time);
+                for (out, error) in out.iter_mut().zip(&self.error) {
+                    *out += share * error;
+                }
+            }
+            Family::Adams => {
+                let (mut weights, mut ends) = ([0.0; MOST_NODES], [0.0; MOST_NODES]);
+                let nodes = self.slopes.nodes();
+                integrals(nodes, [self.time(), t], &mut weights[..=predictor]);
+                integrals(nodes, [self.time(), time], &mut ends[..=predictor]);
+                // The polynomial through the slopes, and what is left at the end.
+                let share = (t - self.time()) / (time - self.time());
+                for (weight, end) in weights.iter_mut().zip(ends) {
+                    *weight -= share * end;
+                }
+                for ((out, new), old) in out
+                    .iter_mut()
+                    .zip(&self.value)
+                    .zip(self.values.difference(0))
+                {
+                    *out = old + share * (new - old);
+                }
+                self.slopes.add_integral(&weights[..predictor], out);
+                for (out, difference) in out.iter_mut().zip(&self.error) {
+                    *out += weights[predictor] * difference;
+                }
+            }
+            Family::Newmark(_) => {
+                // Hermite's cubic through both ends.
+                let size = time - self.time();
+                let s = (t - self.time()) / size;
+                let old = self.values.difference(0);
+                let slopes = self.slopes.difference(0).iter().zip(&self.slope);
+                let ends = old.iter().zip(&self.value);
+                for (out, ((a, b), (da, db))) in out.iter_mut().zip(ends.zip(slopes)) {
+                    let bend = size * ((1.0 - s) * da - s * db) + (2.0 * s - 1.0) * (b - a);
+                    *out = a + s * (b - a) + s * (1.0 - s) * bend;
+                }
+            }
+        }
     }
 
     fn lower_order(&mut self) {
@@ -320,12 +557,7 @@ impl Bdf {
         }
     }
 
-    /// Error that the formula of order `k` would have made, from the difference between the new
-    /// value and the extrapolation through `k + 1` past nodes.
-    ///
-    /// The local error is `y − p_k` times `γ_k / (t − t_k)`: both are the same divided difference
-    /// of order `k + 1`, multiplied by `Π_{i≤k}(t − t_i)` in one and by `γ_k Π_{i<k}(t − t_i)` in
-    /// the other.
+    /// Error that the formula of order `k` would have made.
     fn estimate<S: System>(
         &mut self,
         system: &S,
@@ -334,23 +566,11 @@ impl Bdf {
         time: f64,
         size: f64,
     ) -> Estimate {
-        let constant = self.history.gamma(k, time) / (time - self.history.node(k));
-        let norm = if k == predictor {
-            system.norm(&self.error)
-        } else {
-            let (j, sign) = if k < predictor {
-                (predictor, 1.0)
-            } else {
-                (k, -1.0)
-            };
-            let weight = sign * self.history.product(j, time);
-            let difference = self.history.difference(j);
-            for ((n, e), d) in self.neighbour.iter_mut().zip(&self.error).zip(difference) {
-                *n = e + weight * d;
-            }
-            system.norm(&self.neighbour)
+        let error = match self.settings.family {
+            Family::BackwardDifferences => self.backward_error(system, predictor, k, time),
+            Family::Adams => self.adams_error(system, predictor, k, time),
+            Family::Newmark(newmark) => newmark.error * system.norm(&self.error),
         };
-        let error = constant * norm;
         // A margin of two in the error; never more than a factor of ten per step.
         let size = size
             * (2.0 * error)
@@ -358,6 +578,55 @@ impl Bdf {
                 .powf(-1.0 / (k + 1) as f64)
                 .min(10.0);
         Estimate { error, size }
+    }
+
+    /// Error of backward differences, from the difference between the new value and the extrapolation
+    /// through `k + 1` past nodes.
+    ///
+    /// The local error is `y − p_k` times `γ_k / (t − t_k)`: both are the same divided difference
+    /// of order `k + 1`, multiplied by `Π_{i≤k}(t − t_i)` in one and by `γ_k Π_{i<k}(t − t_i)` in
+    /// the other.
+    fn backward_error<S: System>(
+        &mut self,
+        system: &S,
+        predictor: usize,
+        k: usize,
+        time: f64,
+    ) -> f64 {
+        let constant = self.values.gamma(k, time) / (time - self.values.node(k));
+        if k == predictor {
+            return constant * system.norm(&self.error);
+        }
+        let (j, sign) = if k < predictor {
+            (predictor, 1.0)
+        } else {
+            (k, -1.0)
+        };
+        let weight = sign * self.values.product(j, time);
+        let difference = self.values.difference(j);
+        for ((n, e), d) in self.neighbour.iter_mut().zip(&self.error).zip(difference) {
+            *n = e + weight * d;
+        }
+        constant * system.norm(&self.neighbour)
+    }
+
+    /// Error of the formula of Adams and Moulton of order `k`: the divided difference of order `k` of
+    /// the slopes times its [`error_integral`].
+    fn adams_error<S: System>(&mut self, system: &S, predictor: usize, k: usize, time: f64) -> f64 {
+        let constant = error_integral(self.slopes.nodes(), k, time);
+        let (scale, j, weight) = if k == predictor {
+            (constant, 0, 0.0)
+        } else if k < predictor {
+            (constant * (time - self.slopes.node(k)), k, constant)
+        } else {
+            let span = time - self.slopes.node(predictor);
+            (constant / span, predictor, -constant / span)
+        };
+        let difference = self.slopes.difference(j);
+        for ((n, e), d) in self.neighbour.iter_mut().zip(&self.error).zip(difference) {
+            *n = scale * e + weight * d;
+        }
+        system.norm(&self.neighbour)
     }
 
     /// Step and order for the next step, after an accepted one.
@@ -375,11 +644,11 @@ impl Bdf {
             let growth = here.size / size;
             if growth > 1.0 && falling {
                 // The error of a start is that of its first formulas: grow while it allows.
-                let largest = if self.history.count() < 4 { 8.0 } else { 2.0 };
+                let largest = if self.values.count() < 4 { 8.0 } else { 2.0 };
                 self.size = size * growth.min(largest);
                 if predictor == self.order
                     && self.order < self.highest_order()
-                    && self.history.count() >= self.order + 2
+                    && self.known_orders() > self.order
                 {
                     self.order += 1;
                     self.steps_at_order = 0;

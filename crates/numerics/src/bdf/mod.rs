@@ -13,6 +13,9 @@
 //! equations for `y` ([`System::solve`]); this module keeps the past ([`History`]), predicts,
 //! estimates the error and chooses step and order ([`Bdf`]).
 
+use std::ops::Range;
+
+mod adams;
 mod history;
 mod integrator;
 #[cfg(test)]
@@ -20,6 +23,46 @@ mod integrator_test;
 
 pub use history::History;
 pub use integrator::{Bdf, Error, Settings, Statistics};
+
+/// A family of formulas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Family {
+    /// Backward differentiation, orders 1 to 5, for stiff equations; beyond 5 they are hardly
+    /// stable.
+    BackwardDifferences,
+    /// Adams and Moulton, orders 1 to 12, for smooth equations that are not stiff.
+    Adams,
+    /// Newmark, of second order.
+    Newmark(Newmark),
+}
+
+/// Coefficients of Newmark's formulas.
+///
+/// ```text
+/// x = x₀ + h u₀ + h² ((½ − β) a₀ + β a),     u = u₀ + h ((1 − γ) a₀ + γ a)
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Newmark {
+    /// β.
+    pub beta: f64,
+    /// γ.
+    pub gamma: f64,
+    /// Local error of the positions as a part of what they differ from their prediction with
+    /// `a = a₀`.
+    pub error: f64,
+}
+
+impl Family {
+    /// The highest order of the formulas.
+    #[must_use]
+    pub const fn highest_order(self) -> usize {
+        match self {
+            Self::BackwardDifferences => 5,
+            Self::Adams => 12,
+            Self::Newmark(_) => 2,
+        }
+    }
+}
 
 /// One attempted step, as the system sees it.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +75,9 @@ pub struct Step<'a> {
     pub order: usize,
     /// `ẏ = (y − history)/gamma` at the end of the step.
     pub gamma: f64,
+    /// The same factor for the values in [`System::positions`]; another one with the formulas of
+    /// Newmark only.
+    pub position_gamma: f64,
     /// The part `ŷ` of the formula that the past determines.
     pub history: &'a [f64],
     /// Extrapolation of the past to the end of the step: the first guess.
@@ -66,6 +112,21 @@ pub trait System {
     /// Size of `difference` (between two values of `y`) in units of the error tolerance: at most
     /// one is acceptable. Components that must not take part in the error test count nothing.
     fn norm(&self, difference: &[f64]) -> f64;
+
+    /// Writes the slope `ẏ` at the solved end `y` of `step`, for formulas that go on from slopes.
+    fn slope(&self, step: &Step<'_>, y: &[f64], slope: &mut [f64]) {
+        for ((slope, y), past) in slope.iter_mut().zip(y).zip(step.history) {
+            *slope = (y - past) / step.gamma;
+        }
+    }
+
+    /// Places of values whose slopes have slopes of their own, which the formulas of Newmark use.
+    fn positions(&self) -> Range<usize> {
+        0..0
+    }
+
+    /// Writes the second derivatives of those values to their places.
+    fn curvature(&self, _: &[f64], _slope: &[f64], _curvature: &mut [f64]) {}
 
     /// Looks at a step that passed the error test, before it is accepted. `within(t, out)` gives the
     /// values at a time within the step, to its order.

@@ -11,7 +11,7 @@ pub(crate) struct Integrator {
 }
 
 /// All choices.
-pub(crate) const ALL: [Integrator; 2] = [
+pub(crate) const ALL: [Integrator; 5] = [
     Integrator {
         name: "GSTIFF, SI2",
         formulation: Formulation::Si2,
@@ -19,6 +19,21 @@ pub(crate) const ALL: [Integrator; 2] = [
     Integrator {
         name: "GSTIFF, I3",
         formulation: Formulation::I3,
+    },
+    Integrator {
+        name: "HHT",
+        formulation: Formulation::Hht { alpha: -0.3 },
+    },
+    Integrator {
+        name: "NEWMARK",
+        formulation: Formulation::Newmark {
+            beta: 0.36,
+            gamma: 0.7,
+        },
+    },
+    Integrator {
+        name: "Adams",
+        formulation: Formulation::Adams,
     },
 ];
 
@@ -36,7 +51,7 @@ impl Integrator {
         Settings {
             formulation: self.formulation,
             error,
-            highest_order: 5,
+            highest_order: 12,
             longest_step,
             shortest_step: (1e-6 * longest_step).min(1e-9),
             first_step: None,

@@ -333,6 +333,7 @@ impl Dynamics {
                 size,
                 order: 1,
                 gamma: size,
+                position_gamma: size,
                 history: values,
                 prediction: values,
             };

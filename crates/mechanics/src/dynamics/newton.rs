@@ -1,0 +1,194 @@
+//! The equations of a step and Newton's iteration on them.
+
+use numerics::bdf;
+
+use super::{Dynamics, Index, MatrixUse};
+use crate::instant::Failure;
+use crate::model::Level;
+use crate::system::{Rows, Weights};
+
+/// Newton stops when what is left is this part of the error tolerance.
+const NEWTON_TOLERANCE: f64 = 0.05;
+/// The same for index 3, whose velocities and reactions are what is left divided by the step and its
+/// square.
+const INDEX3_NEWTON_TOLERANCE: f64 = 0.002;
+/// The same for the formulas of Newmark, whose velocities keep what is left, divided by the step.
+const NEWMARK_NEWTON_TOLERANCE: f64 = 2e-5;
+/// The same for the formulas of Adams, whose high differences of slopes magnify what is left.
+const ADAMS_NEWTON_TOLERANCE: f64 = 0.005;
+/// Iterations with a matrix each, at least.
+const FULL_ITERATIONS: usize = 20;
+/// Corrections that may grow in such an iteration.
+const GROWTHS: usize = 5;
+
+impl Dynamics {
+    /// Right-hand sides at the state evaluated last.
+    pub(super) fn residual(&mut self, step: &bdf::Step<'_>) -> Result<(), Failure> {
+        self.work.residuals += 1;
+        let n = self.system.rate_count();
+        let gamma = step.gamma;
+        self.take_change(step);
+        for (trial, impulse) in self.trial.iter_mut().zip(&self.impulses) {
+            *trial = impulse / gamma;
+        }
+        self.system
+            .set_solution(&self.change, 1.0 / gamma, &self.trial);
+        self.system.mass_times(&self.change, &mut self.momentum);
+        self.system.forces(&self.trial, &mut self.force);
+        let (inertia, lag) = (self.inertia_part(), self.lag());
+        for k in 0..n {
+            let force = self.force[k] + lag * self.past_force[k];
+            self.right[k] = gamma * force - inertia * self.momentum[k];
+        }
+        for (row, &place) in self.system.rows.iter().enumerate() {
+            let evaluated = &self.system.evaluated[place];
+            let constraint = &self.system.constraints[place];
+            let of = |u: &[f64]| evaluated.rate_of(&constraint.bodies, u);
+            self.right[n + row] = match (constraint.level, self.present) {
+                (Level::Acceleration, _) | (_, Index::One) => {
+                    gamma * self.system.prescribed_acceleration(place) - of(&self.change)
+                }
+                (Level::Position, Index::Three) => -evaluated.error / step.position_gamma,
+                (Level::Position, Index::StabilisedTwo) | (Level::Velocity, _) => {
+                    evaluated.rate - of(self.state.velocities())
+                }
+            };
+        }
+        let lacks = &mut self.right[n + self.system.row_count()..];
+        self.system.algebraic_residual(&self.trial, lacks);
+        for lack in lacks {
+            *lack *= gamma;
+        }
+        if self.right.iter().all(|r| r.is_finite()) {
+            Ok(())
+        } else {
+            Err(Failure::NotANumber {
+                element: self.system.find_not_a_number(),
+            })
+        }
+    }
+
+    /// Size of a Newton correction in units of the error tolerance.
+    pub(super) fn correction_norm(&self, gamma: f64) -> f64 {
+        let n = self.system.velocity_count();
+        let (length, rate) = (self.scales.length, self.scales.rate);
+        let mut norm = 0.0_f64;
+        for k in 0..n {
+            let unit = if k % 6 < 3 { length } else { 1.0 };
+            norm = norm.max((gamma * self.right[k]).abs() / unit);
+            if self.present != Index::Three {
+                norm = norm.max(self.right[k].abs() / (unit * rate));
+            }
+            if self.present == Index::StabilisedTwo {
+                norm = norm.max(self.position_right[k].abs() / unit);
+            }
+        }
+        for (scale, change) in self.state_scales.iter().zip(&self.right[n..]) {
+            norm = norm.max(change.abs() / scale);
+        }
+        norm / self.tolerance
+    }
+
+    /// Newton's iteration from the loaded state, with the matrix used as `usage` says.
+    pub(super) fn newton(&mut self, step: &bdf::Step<'_>, usage: MatrixUse) -> Result<(), Failure> {
+        let gamma = step.gamma;
+        let moving = self.system.velocity_count();
+        let n = self.system.rate_count();
+        let rows = match self.present {
+            Index::One => Rows::Acceleration,
+            Index::StabilisedTwo => Rows::Velocity,
+            Index::Three => Rows::Position,
+        };
+        let (mut last, mut worst, mut growths) = (0.0, 0, 0);
+        let iterations = match usage {
+            MatrixUse::RenewedAlways => self.newton_iterations.max(FULL_ITERATIONS),
+            _ => self.newton_iterations,
+        };
+        let tolerance = match self.present {
+            Index::One => ADAMS_NEWTON_TOLERANCE,
+            Index::StabilisedTwo => NEWTON_TOLERANCE,
+            Index::Three if step.gamma != step.position_gamma => NEWMARK_NEWTON_TOLERANCE,
+            Index::Three => INDEX3_NEWTON_TOLERANCE,
+        };
+        let tolerance = tolerance * self.switching.newton_part();
+        for iteration in 0..iterations {
+            let renew = match usage {
+                MatrixUse::Kept => false,
+                MatrixUse::Renewed => iteration == 0,
+                MatrixUse::RenewedAlways => true,
+            };
+            self.system.evaluate(&self.state, renew);
+            self.residual(step)?;
+            if renew {
+                self.factored = None;
+                self.work.factorisations += 1;
+                let weights = Weights::step(self.inertia_part(), gamma, step.position_gamma);
+                self.system
+                    .assemble(rows, weights, &self.change, &self.trial, &mut self.matrix);
+                let factored = self.factors.factor(&self.matrix);
+                factored.map_err(|singular| self.system.without_solution(singular))?;
+                self.factored = Some(gamma);
+            }
+            self.factors.solve(&mut self.right);
+            for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
+                *impulse += change;
+            }
+            match self.present {
+                Index::One => {
+                    for (u, change) in self.state.velocities_mut().iter_mut().zip(&self.right) {
+                        *u += change;
+                    }
+                    self.positions_from_velocities(step)?;
+                }
+                Index::StabilisedTwo => {
+                    self.correct_positions(gamma);
+                    for k in 0..moving {
+                        self.state.velocities_mut()[k] += self.right[k];
+                        self.shift[k] += self.position_right[k];
+                    }
+                    self.positions_from_velocities(step)?;
+                }
+                Index::Three => {
+                    for k in 0..moving {
+                        self.change[k] = step.position_gamma * self.right[k];
+                    }
+                    self.state.displace(&self.change[..moving]);
+                    self.velocities_from_positions(step);
+                }
+            }
+            let states = self.state.states_mut().iter_mut();
+            for (state, change) in states.zip(&self.right[moving..n]) {
+                *state += change;
+            }
+            let norm = self.correction_norm(step.position_gamma);
+            let size = |k: &usize| self.right[*k].abs();
+            worst = (0..n)
+                .max_by(|a, b| size(a).total_cmp(&size(b)))
+                .unwrap_or(0);
+            if !norm.is_finite() {
+                break;
+            }
+            if norm == 0.0 {
+                return Ok(());
+            }
+            // The first correction says nothing about how fast the iteration converges, and the
+            // rate of an earlier step says nothing about a matrix that has gone stale since.
+            if iteration > 0 {
+                self.rate = norm / last;
+                if self.rate >= 1.0 && norm > tolerance {
+                    // With a matrix of its own in each iteration the kink may be crossed once or
+                    // twice before the iteration settles on one side.
+                    growths += 1;
+                    if usage != MatrixUse::RenewedAlways || growths > GROWTHS {
+                        break;
+                    }
+                }
+                if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= tolerance {
+                    return Ok(());
+                }
+            }
+            last = norm;
+        }
+        Err(Failure::NotConverged { unknown: worst })
+    }
+}
