@@ -151,7 +151,7 @@ impl History {
     }
 
     /// Adds `scale` times the integral over time from the newest node to `time` of the polynomial
-    /// through the newest `weights.len()` nodes, where `weights` are the [`integrals`] to there.
+    /// through the newest `weights.len()` nodes, where `weights` are the integrals of the products of nodes to there.
     pub fn add_integral(&self, weights: &[f64], integral: &mut [f64]) {
         for (j, weight) in weights.iter().enumerate() {
             for (sum, d) in integral.iter_mut().zip(self.difference(j)) {

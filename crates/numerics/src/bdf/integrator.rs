@@ -611,7 +611,7 @@ impl Bdf {
     }
 
     /// Error of the formula of Adams and Moulton of order `k`: the divided difference of order `k` of
-    /// the slopes times its [`error_integral`].
+    /// the slopes times its `error_integral`.
     fn adams_error<S: System>(&mut self, system: &S, predictor: usize, k: usize, time: f64) -> f64 {
         let constant = error_integral(self.slopes.nodes(), k, time);
         let (scale, j, weight) = if k == predictor {
