@@ -64,12 +64,15 @@ pub(crate) struct Timed {
     pub(crate) statistics: Option<Statistics>,
 }
 
-/// Watches nothing.
-pub(crate) struct Silent;
+/// Steps after which a run is given up.
+const MOST_STEPS: usize = 20_000;
+
+/// Watches nothing but the number of steps.
+struct Silent;
 
 impl Observer for Silent {
-    fn step(&mut self, _: &StepReport) -> bool {
-        true
+    fn step(&mut self, report: &StepReport) -> bool {
+        report.statistics.steps.steps < MOST_STEPS
     }
 
     fn output(&mut self, _: &Snapshot<'_>) -> bool {
@@ -87,7 +90,7 @@ impl Case {
         let times = clock.read();
         match ending {
             Err(failure) => Err(failure.to_string()),
-            Ok(Ending::Stopped) => Err("stopped".into()),
+            Ok(Ending::Stopped) => Err(format!("more than {MOST_STEPS} steps")),
             Ok(Ending::Completed) => Ok(Timed {
                 times,
                 values: (self.read)(&simulation),

@@ -3,6 +3,7 @@
 mod case;
 mod cases;
 mod clock;
+mod document;
 mod integrators;
 mod matched;
 mod peers;
@@ -49,12 +50,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if let Some(environment) = &environment {
         println!("{}\n", environment.versions);
     }
+    let mut all = Vec::new();
     for entry in &cases::ALL {
         if !arguments.cases.is_empty() && !arguments.cases.iter().any(|name| name == entry.name) {
             continue;
         }
         let measured = measure(entry, &root, environment.as_ref(), arguments.quick)?;
         println!("{}", tables::section(&measured));
+        all.push(measured);
+    }
+    if arguments.cases.is_empty() && !arguments.quick {
+        let versions = environment.as_ref().map(|e| e.versions.as_str());
+        let path = root.join("docs/performance.md");
+        std::fs::write(&path, document::page(&all, versions))
+            .map_err(|error| format!("{}: {error}", path.display()))?;
     }
     Ok(())
 }

@@ -12,6 +12,9 @@ const RUNS: usize = 5;
 /// A row is not run again when it has taken this long, seconds.
 const ENOUGH: f64 = 0.5;
 
+/// Where one of our rows fails or takes longer than this, seconds, tighter ones are left out.
+const LONGEST: f64 = 4.0;
+
 /// How a row was run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Setting {
@@ -83,6 +86,12 @@ impl Trial {
         let failed = matches!(self.last, Some(Err(_)));
         let spent: f64 = self.times.iter().map(|times| times.wall).sum();
         !failed && spent < ENOUGH
+    }
+
+    /// Whether the last run came to its end within the longest time.
+    fn is_fast(&self) -> bool {
+        let within = |times: &Times| times.wall < LONGEST;
+        matches!(self.last, Some(Ok(_))) && self.times.last().is_some_and(within)
     }
 
     fn run(&mut self, case: &Case, peers: &mut [Peer]) {
@@ -175,8 +184,16 @@ pub(crate) fn measure(
         }
     }
     for _ in 0..if quick { 1 } else { RUNS } {
+        let mut given_up = None;
         for trial in trials.iter_mut().filter(|trial| trial.wants_more()) {
+            if given_up == Some(trial.name) {
+                trial.last = Some(Err("not run, as the row before took too long".into()));
+                continue;
+            }
             trial.run(&case, &mut peers);
+            if matches!(trial.runner, Runner::Ours(_)) && !trial.is_fast() {
+                given_up = Some(trial.name);
+            }
         }
     }
     let rows = trials.into_iter().map(|trial| trial.row(&exact)).collect();

@@ -87,7 +87,7 @@ pub(super) fn chain_1000(_: &Path) -> Result<Case, String> {
         "chain-1000",
         "Chain of 1,000 rods",
         1_000,
-        [-6, -8],
+        [-8, -9],
         exudyn,
         &[50, 100],
     )

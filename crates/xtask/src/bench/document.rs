@@ -1,0 +1,131 @@
+//! The page docs/performance.md: the machine, the ratios that are aimed at, and all tables.
+
+use std::fmt::Write;
+use std::process::Command;
+
+use super::matched::time_at;
+use super::tables::{milliseconds, names, section};
+use super::work_precision::Measured;
+
+/// A ratio that is aimed at: the time of a peer over the least of ours at an error.
+struct Target {
+    case: &'static str,
+    /// How the name of the peer begins.
+    peer: &'static str,
+    error: f64,
+    least: f64,
+}
+
+const TARGETS: [Target; 12] = [
+    target("andrews", "Exudyn", 1e-4, 30.0),
+    target("andrews", "Exudyn", 1e-6, 100.0),
+    target("four-bar-2", "Exudyn", 1e-4, 30.0),
+    target("four-bar-2", "Exudyn", 1e-6, 30.0),
+    target("four-bar-40", "Exudyn", 1e-4, 30.0),
+    target("four-bar-40", "Exudyn", 1e-6, 30.0),
+    target("chain-10", "Exudyn", 1e-5, 10.0),
+    target("chain-100", "Exudyn", 1e-5, 10.0),
+    target("chain-1000", "Exudyn", 1e-5, 10.0),
+    target("chain-10", "MuJoCo", 1e-5, 0.5),
+    target("chain-100", "MuJoCo", 1e-5, 0.5),
+    target("chain-1000", "MuJoCo", 1e-5, 0.5),
+];
+
+const fn target(case: &'static str, peer: &'static str, error: f64, least: f64) -> Target {
+    Target {
+        case,
+        peer,
+        error,
+        least,
+    }
+}
+
+/// The page; `versions` are those of the peers.
+pub(crate) fn page(measured: &[Measured], versions: Option<&str>) -> String {
+    let mut text = format!(
+        "# Performance\n\nWritten by `cargo xtask bench`. {}\n\nPeers: {}. Times are medians of the \
+         solver alone, of one thread: processor time of the thread for ours, of the process for the \
+         peers, by turns in one run. Between measured errors, error and time are taken as powers of one \
+         another, and no lucky error counts.\n\n",
+        machine(),
+        versions.unwrap_or("none")
+    );
+    text += "## Ratios\n\nThe time of the peer's best method over that of our best integrator, at the same \
+             error.\n\n| case | peer | error | ours, ms | peer, ms | ratio | aimed at | |\n\
+             |---|---|---|---|---|---|---|---|\n";
+    for target in &TARGETS {
+        text += &ratio(target, measured);
+    }
+    text += "\n";
+    for case in measured {
+        text += &section(case);
+    }
+    text
+}
+
+fn ratio(target: &Target, measured: &[Measured]) -> String {
+    let best = |of_peer: bool| {
+        let case = measured.iter().find(|m| m.case.name == target.case)?;
+        let is_peer = |name: &str| name.starts_with("Exudyn") || name.starts_with("MuJoCo");
+        let chosen = |name: &str| match of_peer {
+            true => name.starts_with(target.peer),
+            false => !is_peer(name),
+        };
+        let all = names(&case.rows).into_iter().filter(|name| chosen(name));
+        let times = all.filter_map(|name| time_at(&case.rows, name, target.error));
+        times.min_by(|a, b| a.time.total_cmp(&b.time))
+    };
+    let (ours, peer) = (best(false), best(true));
+    let cell = |time: Option<super::matched::Matched>| match time {
+        None => "not reached".to_owned(),
+        Some(m) if m.extrapolated => format!("{} (extrapolated)", milliseconds(m.time)),
+        Some(m) => milliseconds(m.time),
+    };
+    let (found, verdict) = match (ours, peer) {
+        (Some(ours), Some(peer)) => {
+            let ratio = peer.time / ours.time;
+            let verdict = if ratio >= target.least {
+                "met"
+            } else {
+                "**short**"
+            };
+            (format!("{ratio:.1}"), verdict)
+        }
+        _ => (String::new(), "**not measured**"),
+    };
+    let mut line = String::new();
+    let _ = writeln!(
+        line,
+        "| `{}` | {} | {:.0e} | {} | {} | {found} | {} | {verdict} |",
+        target.case,
+        target.peer,
+        target.error,
+        cell(ours),
+        cell(peer),
+        target.least
+    );
+    line
+}
+
+/// Processor, cores, compiler and commit.
+fn machine() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find(|line| line.starts_with("model name"));
+    let model = model.and_then(|line| line.split(": ").nth(1));
+    let cores = std::thread::available_parallelism().map_or(0, std::num::NonZero::get);
+    let said = |program: &str, arguments: &[&str]| {
+        let output = Command::new(program).args(arguments).output().ok()?;
+        let text = String::from_utf8(output.stdout).ok()?;
+        Some(text.trim().to_owned())
+    };
+    let unknown = || "unknown".to_owned();
+    format!(
+        "Machine: {}, {cores} cores, {} {}; {}; commit {} of {}.",
+        model.unwrap_or("unknown processor"),
+        std::env::consts::OS,
+        std::env::consts::ARCH,
+        said("rustc", &["--version"]).unwrap_or_else(unknown),
+        said("git", &["rev-parse", "--short", "HEAD"]).unwrap_or_else(unknown),
+        said("git", &["log", "-1", "--format=%cs"]).unwrap_or_else(unknown),
+    )
+}
