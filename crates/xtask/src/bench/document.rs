@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::process::Command;
 
 use super::matched::time_at;
-use super::tables::{milliseconds, names, section};
+use super::tables::{cell, names, section};
 use super::work_precision::Measured;
 
 /// A ratio that is aimed at: the time of a peer over the least of ours at an error.
@@ -76,11 +76,6 @@ fn ratio(target: &Target, measured: &[Measured]) -> String {
         times.min_by(|a, b| a.time.total_cmp(&b.time))
     };
     let (ours, peer) = (best(false), best(true));
-    let cell = |time: Option<super::matched::Matched>| match time {
-        None => "not reached".to_owned(),
-        Some(m) if m.extrapolated => format!("{} (extrapolated)", milliseconds(m.time)),
-        Some(m) => milliseconds(m.time),
-    };
     let (found, verdict) = match (ours, peer) {
         (Some(ours), Some(peer)) => {
             let ratio = peer.time / ours.time;

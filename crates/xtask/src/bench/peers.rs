@@ -18,6 +18,7 @@ const ONE_THREAD: [&str; 3] = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_N
 
 /// A virtual environment with the peers.
 pub(crate) struct Environment {
+    folder: PathBuf,
     python: PathBuf,
     scripts: PathBuf,
     /// Names and versions of the peers.
@@ -49,6 +50,7 @@ impl Environment {
             .output();
         let versions = said(versions, "versions.py")?;
         Ok(Self {
+            folder: folder.to_path_buf(),
             python,
             scripts,
             versions,
@@ -64,6 +66,8 @@ impl Environment {
             .arg(self.scripts.join(setup.script))
             .args(&setup.arguments)
             .envs(ONE_THREAD.map(|name| (name, "1")))
+            // Peers leave logs where they are started.
+            .current_dir(&self.folder)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::matched::time_at;
+use super::matched::{Matched, time_at};
 use super::work_precision::{Measured, Row, Setting};
 
 /// The errors at which times are compared.
@@ -67,8 +67,17 @@ fn line(row: &Row) -> String {
     line + "\n"
 }
 
+/// Milliseconds at an error, where it is reached.
+pub(crate) fn cell(time: Option<Matched>) -> String {
+    match time {
+        None => "not reached".to_owned(),
+        Some(m) if m.extrapolated => format!("{} (extrapolated)", milliseconds(m.time)),
+        Some(m) => milliseconds(m.time),
+    }
+}
+
 /// Three digits.
-pub(crate) fn milliseconds(seconds: f64) -> String {
+fn milliseconds(seconds: f64) -> String {
     let time = 1e3 * seconds;
     match time {
         t if t < 9.995 => format!("{t:.2}"),
@@ -82,11 +91,7 @@ fn at_equal_errors(measured: &Measured) -> String {
     let heading: Vec<String> = TARGETS.iter().map(|t| format!("at {t:.0e}")).collect();
     let mut text = format!("| CPU ms | {} |\n|---|---|---|---|\n", heading.join(" | "));
     for name in names(&measured.rows) {
-        let cells = TARGETS.map(|target| match time_at(&measured.rows, name, target) {
-            None => "not reached".to_owned(),
-            Some(m) if m.extrapolated => format!("{} (extrapolated)", milliseconds(m.time)),
-            Some(m) => milliseconds(m.time),
-        });
+        let cells = TARGETS.map(|target| cell(time_at(&measured.rows, name, target)));
         let _ = writeln!(text, "| {name} | {} |", cells.join(" | "));
     }
     text
