@@ -1,6 +1,6 @@
 //! The equations of a step and Newton's iteration on them.
 
-use numerics::bdf;
+use numerics::bdf::{self, Family};
 
 use super::{Dynamics, Index, MatrixUse};
 use crate::instant::Failure;
@@ -107,8 +107,10 @@ impl Dynamics {
         let tolerance = match self.present {
             Index::One => ADAMS_NEWTON_TOLERANCE,
             Index::StabilisedTwo => NEWTON_TOLERANCE,
-            Index::Three if step.gamma != step.position_gamma => NEWMARK_NEWTON_TOLERANCE,
-            Index::Three => INDEX3_NEWTON_TOLERANCE,
+            Index::Three => match self.formulation.family() {
+                Family::Newmark(_) => NEWMARK_NEWTON_TOLERANCE,
+                Family::BackwardDifferences | Family::Adams => INDEX3_NEWTON_TOLERANCE,
+            },
         };
         let tolerance = tolerance * self.switching.newton_part();
         for iteration in 0..iterations {
