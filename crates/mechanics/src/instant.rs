@@ -3,7 +3,7 @@
 use numerics::linear::{FrontalLu, Matrix, Singular};
 
 use crate::constraint::Owner;
-use crate::model::{Label, Level};
+use crate::model::Label;
 use crate::state::State;
 use crate::system::{Rows, System, Weights};
 
@@ -284,16 +284,7 @@ impl Instant {
             system.evaluate(state, false);
         }
         self.right[..n].fill(0.0);
-        for (row, &place) in system.rows.iter().enumerate() {
-            let evaluated = &system.evaluated[place];
-            let rate = evaluated.rate_of(&system.constraints[place].bodies, state.velocities());
-            let prescribed = system.constraints[place].level != Level::Acceleration;
-            self.right[n + row] = if prescribed {
-                evaluated.rate - rate
-            } else {
-                0.0
-            };
-        }
+        system.velocity_lacks(state.velocities(), &mut self.right[n..]);
         self.factors.solve(&mut self.right);
         for (u, change) in state.velocities_mut().iter_mut().zip(&self.right[..n]) {
             *u += change;

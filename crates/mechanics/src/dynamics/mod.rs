@@ -406,9 +406,7 @@ impl bdf::System for Dynamics {
     }
 
     fn slope(&self, step: &bdf::Step<'_>, y: &[f64], slope: &mut [f64]) {
-        for ((slope, y), past) in slope.iter_mut().zip(y).zip(step.history) {
-            *slope = (y - past) / step.gamma;
-        }
+        step.write_slope(y, slope);
         self.state.write_position_slopes(y, slope);
         slope[self.state.rate_range()].copy_from_slice(&self.rates);
         slope[self.state.work_range()].copy_from_slice(&self.powers);

@@ -1,7 +1,6 @@
 //! The return of a step of index one to the constraints.
 
 use super::Dynamics;
-use crate::model::Level;
 
 /// Corrections above this part of the tolerance need the system evaluated anew.
 const EVALUATED_ANEW: f64 = 0.1;
@@ -16,14 +15,10 @@ impl Dynamics {
         self.position_right.fill(0.0);
         self.right.fill(0.0);
         for (row, &place) in self.system.rows.iter().enumerate() {
-            let evaluated = &self.system.evaluated[place];
-            let constraint = &self.system.constraints[place];
-            self.position_right[n + row] = -evaluated.error;
-            if constraint.level != Level::Acceleration {
-                let rate = evaluated.rate_of(&constraint.bodies, self.state.velocities());
-                self.right[n + row] = evaluated.rate - rate;
-            }
+            self.position_right[n + row] = -self.system.evaluated[place].error;
         }
+        self.system
+            .velocity_lacks(self.state.velocities(), &mut self.right[n..]);
         self.factors.solve(&mut self.position_right);
         self.factors.solve(&mut self.right);
         self.state.displace(&self.position_right[..moving]);

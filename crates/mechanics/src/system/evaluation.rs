@@ -4,6 +4,7 @@ use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::expression::Input;
 use crate::measure::{self, Order, Quantity};
+use crate::model::Level;
 use crate::scalar::Jet;
 use crate::state::{MarkerFrame, State};
 
@@ -47,6 +48,19 @@ impl System {
         }
         for place in 0..self.constraints.len() {
             self.evaluate_function(place);
+        }
+    }
+
+    /// Writes, for every row, what the velocities lack of the rate that its constraint prescribes; zero
+    /// where it prescribes accelerations only.
+    pub(crate) fn velocity_lacks(&self, velocities: &[f64], lacks: &mut [f64]) {
+        for (lack, &place) in lacks.iter_mut().zip(&self.rows) {
+            let (evaluated, constraint) = (&self.evaluated[place], &self.constraints[place]);
+            *lack = if constraint.level == Level::Acceleration {
+                0.0
+            } else {
+                evaluated.rate - evaluated.rate_of(&constraint.bodies, velocities)
+            };
         }
     }
 

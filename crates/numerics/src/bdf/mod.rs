@@ -84,6 +84,15 @@ pub struct Step<'a> {
     pub prediction: &'a [f64],
 }
 
+impl Step<'_> {
+    /// Writes the slope `(y − history)/gamma` that the formula gives at the end of the step.
+    pub fn write_slope(&self, y: &[f64], slope: &mut [f64]) {
+        for ((slope, y), past) in slope.iter_mut().zip(y).zip(self.history) {
+            *slope = (y - past) / self.gamma;
+        }
+    }
+}
+
 /// Values at a time within a step, written to a slice of their number.
 pub type Within<'a> = &'a mut dyn FnMut(f64, &mut [f64]);
 
@@ -115,9 +124,7 @@ pub trait System {
 
     /// Writes the slope `ẏ` at the solved end `y` of `step`, for formulas that go on from slopes.
     fn slope(&self, step: &Step<'_>, y: &[f64], slope: &mut [f64]) {
-        for ((slope, y), past) in slope.iter_mut().zip(y).zip(step.history) {
-            *slope = (y - past) / step.gamma;
-        }
+        step.write_slope(y, slope);
     }
 
     /// Places of values whose slopes have slopes of their own, which the formulas of Newmark use.

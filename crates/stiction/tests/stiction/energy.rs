@@ -209,21 +209,26 @@ SIMULATE/DYNAMIC, DURATION=0.5, STEPS=50
     assert!(balance.residual_share() < 1e-6, "{balance}");
 }
 
-/// Where no velocity can be told from the tolerance, nothing is missing.
-#[test]
-fn energies_of_the_size_of_the_error_are_none() {
-    let model = "A mass that trembles
+/// A mass of 2 kg that slides along z.
+const GUIDED_MASS: &str = "A mass in a guide
 UNITS/SYSTEM=MKS
 PART/1, GROUND
 MARKER/1, PART=1
 PART/2, MASS=2, CM=20, IP=1, 1, 1
 MARKER/20, PART=2
 JOINT/1, TRANSLATIONAL, I=20, J=1
-SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=SIGN(1, SIN(2*PI*200*TIME))
 ";
+
+/// Where no velocity can be told from the tolerance, nothing is missing.
+#[test]
+fn energies_of_the_size_of_the_error_are_none() {
+    let model = format!(
+        "{GUIDED_MASS}SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, \
+         FUNCTION=SIGN(1, SIN(2*PI*200*TIME))\n"
+    );
     // At every output it is at rest.
     let commands = "\nINTEGRATOR/GSTIFF, SI2, ERROR=1E-3\nSIMULATE/DYNAMIC, END=1, STEPS=10\n";
-    let run = run_commands(model, commands);
+    let run = run_commands(&model, commands);
     assert!(run.report.balance.unwrap().residual_share() > 1e-3);
     assert_eq!(run.report.warnings, 0, "{}", run.messages);
 }
@@ -236,17 +241,8 @@ fn motions_of_every_level_do_work() {
         ("VELOCITY", "4*TIME"),
         ("ACCELERATION", "4"),
     ] {
-        let model = format!(
-            "A mass that is moved
-UNITS/SYSTEM=MKS
-PART/1, GROUND
-MARKER/1, PART=1
-PART/2, MASS=2, CM=20, IP=1, 1, 1
-MARKER/20, PART=2
-JOINT/1, TRANSLATIONAL, I=20, J=1
-MOTION/1, JOINT=1, TRANSLATION, {level}, FUNCTION={function}
-"
-        );
+        let model =
+            format!("{GUIDED_MASS}MOTION/1, JOINT=1, TRANSLATION, {level}, FUNCTION={function}\n");
         let commands = "\nSIMULATE/DYNAMIC, END=1, STEPS=10\n";
         let balance = balance(&with_commands(&model, commands).unwrap(), 1e-8);
         // At the end 2 kg at 4 m/s.

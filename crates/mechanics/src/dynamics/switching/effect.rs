@@ -114,11 +114,12 @@ impl Dynamics {
         };
         let [lower, upper] = self.system.switch_neighbours(place, cell);
         side(lower, self);
-        let mut change = self.right.clone();
+        // No position is corrected here: its place keeps the other side.
+        self.position_right.copy_from_slice(&self.right);
         side(upper, self);
         self.system.set_branch(place, Branch::Held(cell));
-        for (change, right) in change.iter_mut().zip(&mut self.right) {
-            *right = (*right - *change) * time / step.gamma;
+        for (right, lower) in self.right.iter_mut().zip(&self.position_right) {
+            *right = (*right - lower) * time / step.gamma;
         }
         self.factors.solve(&mut self.right);
         self.position_right.fill(0.0);
