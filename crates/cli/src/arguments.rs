@@ -63,7 +63,9 @@ pub(crate) enum Command {
     after_help = "Examples:
   stiction run delta.acf
   stiction run pendulum.adm --end 2 --dtout 0.01 -o results
-  stiction run delta.acf --set FRICTION/103.MU_STATIC=0.2 --force",
+  stiction run delta.acf --set FRICTION/103.MU_STATIC=0.2 --force
+  stiction run delta.acf --checkpoint 60
+  stiction run delta.acf --checkpoint 60 --resume",
     after_long_help = EXIT_CODES
 )]
 pub(crate) struct RunArguments {
@@ -101,6 +103,18 @@ pub(crate) struct RunArguments {
     /// Write into a folder that exists already; its files of the same names are replaced
     #[arg(long)]
     pub(crate) force: bool,
+    /// Keep a checkpoint, from which the run can be resumed: a new one after so many seconds of wall
+    /// time, and one where it is interrupted
+    ///
+    /// PREFIX.checkpoint in the folder of the results is always a whole one; it goes when the run
+    /// has ended. 0 writes one after every step.
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) checkpoint: Option<f64>,
+    /// Go on from the checkpoint in the folder of the results, with the same files and options
+    ///
+    /// The results are then, byte for byte, those of a run that was never interrupted.
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
     #[command(flatten)]
     pub(crate) levels: LevelArguments,
 }

@@ -105,6 +105,7 @@ pub(crate) fn write(
         "message": message,
         "exit_code": exit_of(report).code(),
         "time": report.time,
+        "resumed": report.resumed,
         "simulations": report.simulations,
         "failures": report.failures.iter().map(failure_json).collect::<Vec<_>>(),
         "outputs": report.outputs,

@@ -1,8 +1,9 @@
 //! `stiction run`.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use stiction::{Project, RunOptions, RunReport, Session, friction_table};
+use stiction::{Outcome, Project, ResumeError, RunOptions, RunReport, Session, friction_table};
 
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, complain, say};
@@ -53,10 +54,16 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut monitor = Monitor::new(arguments.progress);
     let options = RunOptions {
         error: arguments.error,
+        checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
     };
-    let ran = session.run(&folder, options, &mut monitor);
+    let ran = if arguments.resume {
+        session.resume(&folder, options, &mut monitor)
+    } else {
+        let ran = session.run(&folder, options, &mut monitor);
+        ran.map_err(ResumeError::from)
+    };
     monitor.finish();
-    let report = ran.map_err(|error| Failure(Exit::Usage, format!("error: {error}\n")))?;
+    let report = ran.map_err(|error| usage(&error.to_string()))?;
     let warnings = session.warnings();
     record::write(&folder, &inputs, arguments, warnings, &report).map_err(|error| {
         usage(&format!(
@@ -64,7 +71,7 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
             folder.join("run.json").display()
         ))
     })?;
-    tell(&folder, &report);
+    tell(&folder, &report, arguments);
     Ok(record::exit_of(&report))
 }
 
@@ -78,6 +85,10 @@ fn check_numbers(arguments: &RunArguments) -> Result<(), Failure> {
         if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
             return Err(usage(&format!("{name} must be a positive number")));
         }
+    }
+    let seconds = arguments.checkpoint;
+    if seconds.is_some_and(|seconds| Duration::try_from_secs_f64(seconds).is_err()) {
+        return Err(usage("--checkpoint must be a number of seconds"));
     }
     Ok(())
 }
@@ -99,6 +110,9 @@ fn folder(arguments: &RunArguments, project: &Project) -> Result<PathBuf, Failur
         .output
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}-run", project.prefix())));
+    if arguments.resume {
+        return Ok(folder);
+    }
     if folder.exists() && !arguments.force {
         let shown = folder.display();
         return Err(usage(&format!(
@@ -129,7 +143,7 @@ fn when(report: &RunReport) -> String {
 }
 
 /// Where the results are, and what friction did.
-fn tell(folder: &Path, report: &RunReport) {
+fn tell(folder: &Path, report: &RunReport, arguments: &RunArguments) {
     let (outcome, message) = record::words(&report.outcome);
     if let Some(message) = message {
         complain(&format!("{message}\n"));
@@ -152,6 +166,9 @@ fn tell(folder: &Path, report: &RunReport) {
         text += &format!(" {name}");
     }
     text += " run.json\n";
+    if report.outcome == Outcome::Interrupted && arguments.checkpoint.is_some() {
+        text += "the same command with --resume goes on from here\n";
+    }
     for warning in record::beside_the_outcome(report) {
         text += &warning.to_string();
     }

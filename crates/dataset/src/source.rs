@@ -1,10 +1,11 @@
 //! The text of a dataset or command file, and places in it.
 
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A half-open range of byte offsets into the decoded text of a [`Source`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Span {
     /// Offset of the first byte.
     pub start: usize,

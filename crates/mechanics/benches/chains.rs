@@ -67,7 +67,7 @@ fn main() {
                 let before = simulation.statistics();
                 let start = Instant::now();
                 let ending = simulation
-                    .run(1e3, &[], &settings, &mut Steps(steps))
+                    .run(1e3, [0.0; 0], &settings, &mut Steps(steps))
                     .expect("the chain moves");
                 assert_eq!(ending, Ending::Stopped);
                 let after = simulation.statistics();

@@ -54,7 +54,7 @@ pub(crate) struct Constraint {
 }
 
 /// A constraint equation at an instant.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Evaluated {
     /// How far it is from being met, as a displacement; zero for velocity constraints.
     pub(crate) error: f64,

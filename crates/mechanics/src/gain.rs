@@ -13,6 +13,7 @@
 
 use nalgebra::DMatrix;
 use numerics::linear::{FrontalLu, Matrix};
+use serde::{Deserialize, Serialize};
 
 use crate::instant::Failure;
 use crate::joint_friction::{Memory, Share};
@@ -43,7 +44,7 @@ const SOLVES_A_STEP: usize = 16;
 const LONGEST_INTERVAL: f64 = 1000.0;
 
 /// Finds gains, with storage of its own.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct GainWatch {
     matrix: Matrix,
     factors: FrontalLu,

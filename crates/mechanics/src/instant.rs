@@ -1,6 +1,7 @@
 //! Accelerations, reactions and friction of one instant, and the return to the constraints.
 
 use numerics::linear::{FrontalLu, Matrix, Singular};
+use serde::{Deserialize, Serialize};
 
 use crate::constraint::Owner;
 use crate::model::Label;
@@ -71,7 +72,7 @@ enum Place {
 }
 
 /// Solves the equations at γ = 0: matrix, factors and right-hand side with fixed storage.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Instant {
     matrix: Matrix,
     factors: FrontalLu,
@@ -140,10 +141,8 @@ impl Instant {
             for k in 0..n {
                 accelerations[k] += self.right[k];
             }
-            if system.has_elements() {
-                // Reactions that are zero are so within the rounding of the forces.
-                size = self.force.iter().fold(size, |m, f| m.max(f.abs()));
-            }
+            // Reactions that are zero are so within the rounding of the forces.
+            size = self.force.iter().fold(size, |m, f| m.max(f.abs()));
             let elements = self.element_change(system, accelerations, multipliers);
             if elements.own > 1e-9 {
                 worst = elements.unknown;

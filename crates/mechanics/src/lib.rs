@@ -119,7 +119,7 @@ pub use gain::Jam;
 pub use instant::Failure;
 pub use joint_friction::{Memory, SurfaceVector, Tally, Values as FrictionValues};
 pub use simulation::{
-    Ending, ForeignState, Observer, RunError, SavedState, Settings, Simulation, Statistics,
+    Ending, ForeignState, Observer, Paused, RunError, SavedState, Settings, Simulation, Statistics,
     StepReport, gravity_energy, kinetic_energy,
 };
 pub use snapshot::{Snapshot, Wrench};

@@ -4,6 +4,7 @@
 //! consistency factor (`Force · UCF = Mass · Acceleration`), so that force = mass · acceleration.
 //! Angles are radians. Elements refer to one another by their place in the model's lists.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
@@ -25,6 +26,25 @@ pub struct Label {
     pub id: u32,
     /// Name of the object in Adams View, or empty.
     pub name: String,
+}
+
+impl<'de> Deserialize<'de> for Label {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (statement, id, name) = Deserialize::deserialize(deserializer)?;
+        let statement: String = statement;
+        Ok(Self {
+            // Kept for good, as the names of the program itself are.
+            statement: statement.leak(),
+            id,
+            name,
+        })
+    }
+}
+
+impl Serialize for Label {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (self.statement, self.id, &self.name).serialize(serializer)
+    }
 }
 
 impl std::fmt::Display for Label {

@@ -1,5 +1,6 @@
 //! Numbers that carry derivatives, so that a measure is written once and its derivatives follow.
 
+use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What the formulas of [`crate::measure`] need of a number.
@@ -125,7 +126,7 @@ impl<const N: usize> Scalar for Dual<N> {
 }
 
 /// Value, rate and acceleration along a motion in time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Jet {
     pub(crate) value: f64,
     pub(crate) rate: f64,

@@ -225,7 +225,7 @@ impl State {
 }
 
 /// What the equations need of a body at an instant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct BodyFrame {
     /// Centre of mass in ground.
     pub centre: Vector3<f64>,

@@ -46,7 +46,7 @@ fn allocates_nothing(rods: usize) {
         let mut simulation = Simulation::new(chain(rods), 1.0);
         simulation.assemble().unwrap();
         let info = allocation_counter::measure(|| {
-            simulation.run(end, &[end], &settings, &mut Silent).unwrap();
+            simulation.run(end, [end], &settings, &mut Silent).unwrap();
         });
         (info.count_total, simulation.statistics().steps.steps)
     };

@@ -51,5 +51,5 @@ pub use layout::{Layout, LayoutError};
 pub use msg::{MessageWriter, StepRow};
 pub use req::{ReqWriter, Request};
 pub use res_reader::{DataBlock, ReadError, ResFile};
-pub use res_writer::{DataKind, Header, ResWriter, WriteError};
+pub use res_writer::{Blocks, DataKind, Header, ResWriter, WriteError};
 pub use units::{UnitError, UnitNames};

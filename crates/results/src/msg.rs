@@ -57,6 +57,16 @@ impl<W: Write> MessageWriter<W> {
         Ok(log)
     }
 
+    /// Writes on, behind a banner and what follows it.
+    pub fn append(out: W) -> Self {
+        Self { out }
+    }
+
+    /// What it writes to.
+    pub fn get_ref(&self) -> &W {
+        &self.out
+    }
+
     /// Echo of a command.
     pub fn command(&mut self, text: &str) -> io::Result<()> {
         let text = text.replace('\n', "\n          ");

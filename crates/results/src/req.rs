@@ -62,6 +62,16 @@ impl<W: Write> ReqWriter<W> {
         })
     }
 
+    /// Writes on, behind a head of so many requests and what follows it.
+    pub fn append(out: W, requests: usize) -> Self {
+        Self { out, requests }
+    }
+
+    /// What it writes to.
+    pub fn get_ref(&self) -> &W {
+        &self.out
+    }
+
     /// Writes the six values of every request at a time.
     ///
     /// # Errors

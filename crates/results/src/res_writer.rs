@@ -4,11 +4,12 @@ use crate::channels::{Component, Entity};
 use crate::layout::Layout;
 use crate::number::push_shortest;
 use crate::units::UnitNames;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
 /// What a block of steps holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DataKind {
     /// The model as given (`modelInput`).
     ModelInput,
@@ -115,9 +116,15 @@ pub struct ResWriter<W: Write> {
     layout: Layout,
     /// Text of one step, kept to reuse its memory.
     text: String,
+    blocks: Blocks,
+}
+
+/// How far a `.res` is written: what it takes, beside the file, to write on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Blocks {
     open: Option<DataKind>,
-    blocks: usize,
-    blocks_of_kind: [usize; DataKind::COUNT],
+    count: usize,
+    of_kind: [usize; DataKind::COUNT],
 }
 
 const UNKNOWN: &str = "-unknown-";
@@ -139,15 +146,33 @@ impl<W: Write> ResWriter<W> {
         out.write_all(text.as_bytes())?;
         out.flush()?;
         text.clear();
-        let (blocks, blocks_of_kind) = (0, [0; DataKind::COUNT]);
         Ok(Self {
             out,
             layout,
             text,
-            open: None,
-            blocks,
-            blocks_of_kind,
+            blocks: Blocks::default(),
         })
+    }
+
+    /// Writes on, behind a head and `blocks` that another writer of the same layout has written.
+    pub fn append(out: W, layout: Layout, blocks: Blocks) -> Self {
+        let text = String::new();
+        Self {
+            out,
+            layout,
+            text,
+            blocks,
+        }
+    }
+
+    /// How far it has written.
+    pub fn blocks(&self) -> Blocks {
+        self.blocks
+    }
+
+    /// What it writes to.
+    pub fn get_ref(&self) -> &W {
+        &self.out
     }
 
     /// The layout given.
@@ -161,16 +186,16 @@ impl<W: Write> ResWriter<W> {
     /// [`WriteError::Io`].
     pub fn begin_data(&mut self, kind: DataKind) -> Result<(), WriteError> {
         self.end_data()?;
-        self.blocks += 1;
-        let number = &mut self.blocks_of_kind[kind as usize];
+        self.blocks.count += 1;
+        let number = &mut self.blocks.of_kind[kind as usize];
         *number += 1;
         writeln!(
             self.out,
             "<Data name=\"{}_{number:03}\" id=\"{}\">",
             kind.name(),
-            self.blocks
+            self.blocks.count
         )?;
-        self.open = Some(kind);
+        self.blocks.open = Some(kind);
         Ok(())
     }
 
@@ -180,7 +205,7 @@ impl<W: Write> ResWriter<W> {
     /// A value that is not finite, a wrong number of values, no block begun, or the file system.
     /// The step is then not written and the file stays well-formed.
     pub fn step(&mut self, time: f64, values: &[f64]) -> Result<(), WriteError> {
-        let Some(kind) = self.open else {
+        let Some(kind) = self.blocks.open else {
             return Err(WriteError::OutsideData);
         };
         let expected = self.layout.value_count();
@@ -233,7 +258,7 @@ impl<W: Write> ResWriter<W> {
     /// # Errors
     /// [`WriteError::Io`].
     pub fn end_data(&mut self) -> Result<(), WriteError> {
-        if self.open.take().is_some() {
+        if self.blocks.open.take().is_some() {
             self.out.write_all(b"</Data>\n")?;
             self.out.flush()?;
         }

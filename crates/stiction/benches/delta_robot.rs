@@ -36,7 +36,10 @@ fn main() {
             let start = Instant::now();
             let project = stiction::Project::load(&model).expect("the model is read");
             let session = stiction::Session::new(&project).expect("the model is simulated");
-            let options = stiction::RunOptions { error: Some(error) };
+            let options = stiction::RunOptions {
+                error: Some(error),
+                ..stiction::RunOptions::default()
+            };
             let report = session
                 .run(&folder, options, &mut Unwatched)
                 .expect("results are written");

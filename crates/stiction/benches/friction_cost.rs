@@ -25,7 +25,10 @@ impl Watch for Silent {
 /// Elapsed seconds and report of one run.
 fn run(project: &Project, folder: &Path) -> (f64, RunReport) {
     let session = Session::new(project).expect("the model is simulated");
-    let options = RunOptions { error: Some(1e-6) };
+    let options = RunOptions {
+        error: Some(1e-6),
+        ..RunOptions::default()
+    };
     let start = Instant::now();
     let report = session
         .run(folder, options, &mut Silent)

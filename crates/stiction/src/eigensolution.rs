@@ -2,6 +2,7 @@
 
 use dataset::Eigensolution;
 use mechanics::linearization::Mode;
+use serde::{Deserialize, Serialize};
 
 use crate::failure;
 use crate::lower;
@@ -14,7 +15,7 @@ use crate::text_table::text_table;
 const COMPONENTS: [&str; 6] = ["X", "Y", "Z", "about X", "about Y", "about Z"];
 
 /// The modes that a LINEAR/EIGENSOL found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModeReport {
     /// Time of the model.
     pub time: f64,
@@ -23,7 +24,7 @@ pub struct ModeReport {
 }
 
 /// A mode of a [`ModeReport`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModeLine {
     /// Real and imaginary part of the eigenvalue, cycles/second; of a conjugate pair the one with
     /// the positive imaginary part.

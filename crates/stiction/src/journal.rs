@@ -7,6 +7,7 @@ use dataset::{Code, Dataset, Severity};
 use mechanics::model::{Label, Model};
 use mechanics::{Assembly, Formulation, Settings, Sliding, Snapshot, Statistics};
 use results::{DataKind, MessageWriter, StepRow};
+use serde::{Deserialize, Serialize};
 
 use crate::about::about;
 use crate::balance::EnergyBalance;
@@ -24,10 +25,18 @@ pub(crate) struct Journal<'p, W: Write> {
     writer: MessageWriter<W>,
     path: String,
     project: &'p Project,
+    told: Told,
+    /// Processor time before the run, seconds; negative where it was resumed.
+    processor: Option<f64>,
+}
+
+/// What a message file holds so far, as far as the rest of it depends on that.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Told {
     warnings: usize,
     /// Messages that the run itself gave reason for.
     messages: Vec<Message>,
-    /// Processor time at the start of the run, seconds.
+    /// Processor time of the run, seconds.
     processor: Option<f64>,
     /// Frictions whose overlap has been warned about.
     exhausted: HashSet<usize>,
@@ -49,23 +58,58 @@ impl<'p, W: Write> Journal<'p, W> {
             writer,
             path,
             project,
-            warnings: 0,
-            messages: Vec::new(),
+            told: Told::default(),
             processor: processor_time(),
-            exhausted: HashSet::new(),
-            broken: HashSet::new(),
-            rough: 0,
-            slidings: 0,
         }
     }
 
+    /// Goes on with a message file.
+    pub(crate) fn resume(
+        writer: MessageWriter<W>,
+        path: String,
+        project: &'p Project,
+        told: Told,
+    ) -> Self {
+        let now = processor_time();
+        let processor = now.zip(told.processor).map(|(now, used)| now - used);
+        Self {
+            writer,
+            path,
+            project,
+            told,
+            processor,
+        }
+    }
+
+    /// What it holds so far.
+    pub(crate) fn told(&self) -> Told {
+        Told {
+            processor: self.processor_used(),
+            ..self.told.clone()
+        }
+    }
+
+    pub(crate) fn error(&self, error: &io::Error) -> OutputError {
+        OutputError::new(self.path.clone(), error)
+    }
+
+    /// What it writes to.
+    pub(crate) fn get_ref(&self) -> &W {
+        self.writer.get_ref()
+    }
+
+    fn processor_used(&self) -> Option<f64> {
+        let both = processor_time().zip(self.processor);
+        both.map(|(now, start)| now - start)
+    }
+
     fn check(&self, written: io::Result<()>) -> Result<(), OutputError> {
-        written.map_err(|error| OutputError::new(self.path.clone(), &error))
+        written.map_err(|error| self.error(&error))
     }
 
     /// Number of warnings so far.
     pub(crate) fn warnings(&self) -> usize {
-        self.warnings
+        self.told.warnings
     }
 
     pub(crate) fn command(&mut self, echo: &str) -> Result<(), OutputError> {
@@ -111,7 +155,7 @@ impl<'p, W: Write> Journal<'p, W> {
 
     fn tell(&mut self, message: Message) -> Result<(), OutputError> {
         self.message(&message)?;
-        self.messages.push(message);
+        self.told.messages.push(message);
         Ok(())
     }
 
@@ -121,7 +165,7 @@ impl<'p, W: Write> Journal<'p, W> {
         outcome: &Outcome,
         message: Option<Message>,
     ) -> Result<(), OutputError> {
-        self.messages.extend(message);
+        self.told.messages.extend(message);
         let written = match outcome {
             Outcome::Refused(text)
             | Outcome::AssemblyFailed(text)
@@ -133,7 +177,7 @@ impl<'p, W: Write> Journal<'p, W> {
 
     /// The messages that the run itself gave reason for.
     pub(crate) fn into_messages(self) -> Vec<Message> {
-        self.messages
+        self.told.messages
     }
 
     pub(crate) fn step_row(&mut self, row: &StepRow) -> Result<(), OutputError> {
@@ -148,7 +192,7 @@ impl<'p, W: Write> Journal<'p, W> {
         let written = match message.diagnostic.severity {
             Severity::Error => self.writer.error(text),
             Severity::Warning => {
-                self.warnings += 1;
+                self.told.warnings += 1;
                 self.writer.warning(text)
             }
             Severity::Note => self.writer.note(text),
@@ -277,8 +321,8 @@ impl<'p, W: Write> Journal<'p, W> {
             work.residuals,
             work.factorisations
         ))?;
-        let rough =
-            statistics.rough_outputs - std::mem::replace(&mut self.rough, statistics.rough_outputs);
+        let rough = statistics.rough_outputs
+            - std::mem::replace(&mut self.told.rough, statistics.rough_outputs);
         if rough == 0 {
             return Ok(());
         }
@@ -291,7 +335,7 @@ impl<'p, W: Write> Journal<'p, W> {
 
     /// Tells of the jumps of functions that the motion has stayed at, those told before left out.
     pub(crate) fn slidings(&mut self, slidings: &[Sliding]) -> Result<(), OutputError> {
-        for sliding in slidings.iter().skip(self.slidings) {
+        for sliding in slidings.iter().skip(self.told.slidings) {
             let text = format!(
                 "{}: {} jumps to and fro from time {:.6} on; the motion is held there, with a value \
                  between those of its sides, and its argument to {:.1e}",
@@ -299,7 +343,7 @@ impl<'p, W: Write> Journal<'p, W> {
             );
             self.report(Severity::Note, Code::Chatter, Some(&sliding.element), text)?;
         }
-        self.slidings = slidings.len();
+        self.told.slidings = slidings.len();
         Ok(())
     }
 
@@ -308,7 +352,7 @@ impl<'p, W: Write> Journal<'p, W> {
         let snapshot = wrenches.snapshot();
         for (place, friction) in snapshot.model().frictions.iter().enumerate() {
             let exhausted = wrenches.friction(place).load.overlap_exhausted;
-            if exhausted && self.exhausted.insert(place) {
+            if exhausted && self.told.exhausted.insert(place) {
                 let text = format!(
                     "{}: the overlap of its joint is used up at time {}; a thousandth of \
                      INITIAL_OVERLAP is kept",
@@ -330,7 +374,7 @@ impl<'p, W: Write> Journal<'p, W> {
     ) -> Result<(), OutputError> {
         let broken: Vec<_> = snapshot.broken(BROKEN, length).collect();
         for unmet in broken {
-            if self.broken.insert(unmet.owner.clone()) {
+            if self.told.broken.insert(unmet.owner.clone()) {
                 let text = format!(
                     "{unmet} at time {}: this equation was left out as redundant, but the motion \
                      no longer meets it; joints or motions contradict one another",
@@ -388,8 +432,7 @@ impl<'p, W: Write> Journal<'p, W> {
         failure: Option<&str>,
         elapsed: f64,
     ) -> Result<(), OutputError> {
-        let processor = processor_time().zip(self.processor);
-        let cpu = processor.map_or(elapsed, |(now, start)| now - start);
+        let cpu = self.processor_used().unwrap_or(elapsed);
         let told = failure.map_or(Ok(()), |text| self.writer.error(text));
         let written = told.and_then(|()| match completed {
             true => self.writer.finish(elapsed, cpu),

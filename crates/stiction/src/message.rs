@@ -1,10 +1,11 @@
 //! Messages with their place, ready to be shown.
 
 use dataset::{Diagnostic, Location, Severity, Source};
+use serde::{Deserialize, Serialize};
 
 /// A diagnostic with its place. As text it is `file:line:column: severity[code]: message`, the line
 /// of the source and help; it ends with a newline.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Message {
     /// What it says, with its code and severity.
     pub diagnostic: Diagnostic,

@@ -1,15 +1,16 @@
 //! Writes the rows of results while a simulation runs.
 
-use std::fs::File;
-use std::io::Write;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use mechanics::{Snapshot, StepReport};
-use results::{DataKind, Header, ReqWriter, ResWriter, StepRow, WriteError};
+use results::{Blocks, DataKind, Header, ReqWriter, ResWriter, StepRow, WriteError};
 
 use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row};
+use crate::checkpoint::{CheckpointError, Keeper, Marks, ResumeError};
 use crate::journal::Journal;
 use crate::lower::Outputs;
 use crate::report::{self, FrictionReport};
@@ -52,6 +53,85 @@ impl ResultFiles<File> {
         let req = ReqWriter::new(create(&paths[1])?, title, None, units, requests);
         let req = req.map_err(|error| wrong(&paths[1], error.to_string()))?;
         Ok(Self { res, req, paths })
+    }
+
+    /// Goes on with both behind what was written before a checkpoint.
+    pub(crate) fn resume(
+        folder: &Path,
+        marks: &Marks,
+        channels: &Channels,
+    ) -> Result<Self, ResumeError> {
+        let paths = marks.names.each_ref().map(|name| folder.join(name));
+        let res = reopened(&paths[0], marks.lengths[0])?;
+        let req = reopened(&paths[1], marks.lengths[1])?;
+        Ok(Self {
+            res: ResWriter::append(res, channels.layout().clone(), marks.blocks),
+            req: ReqWriter::append(req, channels.requests().len()),
+            paths,
+        })
+    }
+
+    /// Lengths and names, once everything is on the disk.
+    fn marks(&self) -> Result<([u64; 2], [String; 2], Blocks), OutputError> {
+        let length = |place: usize, file: &File| {
+            length_on_disk(file).map_err(|error| self.error(place, &error))
+        };
+        let lengths = [
+            length(0, self.res.get_ref())?,
+            length(1, self.req.get_ref())?,
+        ];
+        Ok((
+            lengths,
+            self.paths.each_ref().map(|path| name(path)),
+            self.res.blocks(),
+        ))
+    }
+}
+
+/// Length of a file that is being written, once all of it is on the disk.
+pub(crate) fn length_on_disk(file: &File) -> io::Result<u64> {
+    file.sync_data()?;
+    // A device has no length.
+    (&mut &*file).stream_position()
+}
+
+/// A file to be written on from `length`; what is behind that is dropped.
+pub(crate) fn reopened(path: &Path, length: u64) -> Result<File, ResumeError> {
+    let wrong = |error: io::Error| OutputError::new(path.display().to_string(), &error);
+    let mut file = OpenOptions::new().write(true).open(path).map_err(wrong)?;
+    let found = file.metadata().map_err(wrong)?.len();
+    if found < length {
+        return Err(ResumeError::Refused {
+            path: path.display().to_string(),
+            cause: CheckpointError::Results {
+                file: name(path),
+                found,
+                expected: length,
+            },
+        });
+    }
+    file.set_len(length).map_err(wrong)?;
+    file.seek(io::SeekFrom::End(0)).map_err(wrong)?;
+    Ok(file)
+}
+
+fn name(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+impl Recorder<File> {
+    /// How far its files are written.
+    pub(crate) fn marks(&self, messages: u64) -> Result<Marks, OutputError> {
+        let ([res, req], names, blocks) = self.files.marks()?;
+        Ok(Marks {
+            names,
+            lengths: [res, req, messages],
+            blocks,
+            others: self.others.iter().map(|path| name(path)).collect(),
+        })
     }
 }
 
@@ -201,6 +281,10 @@ pub(crate) struct Observe<'a, 'p, W: Write> {
     pub(crate) stop: Option<Stop>,
     /// Set when the watch stops the run.
     pub(crate) interrupted: bool,
+    /// Outputs written in this simulation.
+    pub(crate) taken: usize,
+    /// What knows when to write a checkpoint.
+    pub(crate) keeper: Option<&'a Keeper>,
 }
 
 impl<W: Write> Observe<'_, '_, W> {
@@ -227,7 +311,12 @@ impl<W: Write> Observe<'_, '_, W> {
             statistics: report.statistics,
         };
         self.interrupted = !self.watch.progress(&progress);
-        !self.interrupted
+        true
+    }
+
+    /// Whether to pause after a step: the run is interrupted, or a checkpoint is due.
+    pub(crate) fn pauses(&self) -> bool {
+        self.interrupted || self.keeper.is_some_and(Keeper::is_due)
     }
 
     /// At an output; returns whether to go on.
@@ -240,7 +329,10 @@ impl<W: Write> Observe<'_, '_, W> {
             watched.map_err(Stop::Output)
         });
         match warned {
-            Ok(()) => true,
+            Ok(()) => {
+                self.taken += 1;
+                true
+            }
             Err(stop) => {
                 self.stop = Some(stop);
                 false

@@ -5,6 +5,7 @@ use friction::Effect;
 use mechanics::model::{Label, Law};
 use mechanics::{Snapshot, Tally};
 use results::UnitNames;
+use serde::{Deserialize, Serialize};
 
 use crate::friction_detail::number;
 use crate::text_table::text_table;
@@ -113,6 +114,42 @@ impl FrictionReport {
             self.friction, self.path, self.fastest, law.transition_velocity
         );
         Some((Severity::Warning, Code::NeverSlides, text))
+    }
+}
+
+/// What outputs change of a [`FrictionReport`].
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct Counted {
+    peak: (f64, f64),
+    regimes: [usize; 3],
+    clipped: usize,
+    energies: (f64, f64),
+    tally: Tally,
+    fastest: f64,
+    path: f64,
+    last: (f64, f64),
+}
+
+impl FrictionReport {
+    pub(crate) fn counted(&self) -> Counted {
+        Counted {
+            peak: (self.peak, self.peak_time),
+            regimes: self.regimes,
+            clipped: self.clipped,
+            energies: (self.work, self.energy),
+            tally: self.tally,
+            fastest: self.fastest,
+            path: self.path,
+            last: self.last,
+        }
+    }
+
+    pub(crate) fn set_counted(&mut self, counted: Counted) {
+        (self.peak, self.peak_time) = counted.peak;
+        (self.regimes, self.clipped) = (counted.regimes, counted.clipped);
+        (self.work, self.energy) = counted.energies;
+        self.tally = counted.tally;
+        (self.fastest, self.path, self.last) = (counted.fastest, counted.path, counted.last);
     }
 }
 

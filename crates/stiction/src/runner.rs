@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::balance::EnergyAccount;
 use crate::channels::{Channels, Row, unit_names};
+use crate::checkpoint::{Checkpoint, Job, Keeper, ResumeError, RunProgress, UnderWay};
 use crate::eigensolution::ModeReport;
 use crate::failure;
 use crate::journal::Journal;
@@ -19,7 +20,7 @@ use crate::listing;
 use crate::lower::{Lowered, Measures, Mode, Setting, lower};
 use crate::message::Message;
 use crate::project::{Project, SourcedCommand, second};
-use crate::recorder::{Observe, Recorder, ResultFiles, Stop};
+use crate::recorder::{Observe, Recorder, ResultFiles, Stop, reopened};
 use crate::report;
 use crate::saved_system::SavedSystem;
 use crate::sensors::{Effect, Keeping, Sensing, Sensors};
@@ -52,7 +53,14 @@ pub(crate) struct Runner<'a> {
     /// Typical length of the assembled model.
     pub(crate) length: f64,
     pub(crate) simulations: usize,
-    failures: Vec<FailedCommand>,
+    /// Place of the command that is carried out.
+    pub(crate) command: usize,
+    /// The simulation that goes on from a checkpoint.
+    pub(crate) under_way: Option<UnderWay>,
+    /// Times from which the run was resumed.
+    pub(crate) resumed: Vec<f64>,
+    pub(crate) keeper: Option<Keeper>,
+    pub(crate) failures: Vec<FailedCommand>,
     pub(crate) modes: Vec<ModeReport>,
     pub(crate) started: Instant,
     pub(crate) last_end: f64,
@@ -117,11 +125,13 @@ impl Halt {
 }
 
 impl<'a> Runner<'a> {
+    /// A run from its beginning, or one that goes on from a checkpoint.
     pub(crate) fn new(
         session: &'a Session<'a>,
         folder: &Path,
         options: RunOptions,
-    ) -> Result<Self, OutputError> {
+        from: Option<Checkpoint<'static>>,
+    ) -> Result<Self, ResumeError> {
         let project = session.project;
         let dataset = project.dataset().clone();
         let mut measures = session.measures.clone();
@@ -136,21 +146,36 @@ impl<'a> Runner<'a> {
             Channels::new(&dataset, &lowered, &units).map_err(|e| OutputError::new(source, &e))?;
         let log_path = folder.join(format!("{}.msg", project.prefix()));
         let shown = log_path.display().to_string();
-        let log = File::create(&log_path).map_err(|error| OutputError::new(&shown, &error))?;
-        let version = env!("CARGO_PKG_VERSION");
-        let log = MessageWriter::new(log, "stiction", version, None)
-            .map_err(|error| OutputError::new(&shown, &error))?;
-        let log = Journal::new(log, shown, project);
-        let header = Header {
-            title: dataset.title.clone(),
-            units: units.clone(),
-            ..Header::default()
+        let (log, files) = match &from {
+            None => {
+                let log =
+                    File::create(&log_path).map_err(|error| OutputError::new(&shown, &error))?;
+                let version = env!("CARGO_PKG_VERSION");
+                let log = MessageWriter::new(log, "stiction", version, None)
+                    .map_err(|error| OutputError::new(&shown, &error))?;
+                let header = Header {
+                    title: dataset.title.clone(),
+                    units: units.clone(),
+                    ..Header::default()
+                };
+                let paths = ResultFiles::paths(folder, project.prefix());
+                let files = ResultFiles::create(paths, &header, &channels)?;
+                (Journal::new(log, shown, project), files)
+            }
+            Some(checkpoint) => {
+                let RunProgress { files, told, .. } = &checkpoint.progress;
+                let log = MessageWriter::append(reopened(&log_path, files.lengths[2])?);
+                let files = ResultFiles::resume(folder, files, &channels)?;
+                (Journal::resume(log, shown, project, told.clone()), files)
+            }
         };
-        let paths = ResultFiles::paths(folder, project.prefix());
-        let files = ResultFiles::create(paths, &header, &channels)?;
         let simulation = Simulation::new(lowered.model.clone(), second(&dataset));
         let frictions = report::reports(&simulation.snapshot(), &units);
-        Ok(Self {
+        let keeper = options.checkpoint.map(|interval| {
+            let path = Checkpoint::path(folder, project.prefix());
+            Keeper::new(path, interval, Job::new(project, options.error))
+        });
+        let mut runner = Self {
             session,
             options,
             folder: folder.to_owned(),
@@ -166,6 +191,10 @@ impl<'a> Runner<'a> {
             instant: Recorded::Nothing,
             length: 1.0,
             simulations: 0,
+            command: 0,
+            under_way: None,
+            resumed: Vec::new(),
+            keeper,
             failures: Vec::new(),
             modes: Vec::new(),
             started: Instant::now(),
@@ -182,17 +211,38 @@ impl<'a> Runner<'a> {
                 count: 0,
             },
             lowered,
-        })
+        };
+        if let Some(checkpoint) = from {
+            runner.take_up(checkpoint)?;
+        }
+        Ok(runner)
     }
 
-    pub(crate) fn commands(&mut self, watch: &mut dyn Watch) -> Result<Outcome, OutputError> {
+    /// Carries out the commands and ends the files.
+    pub(crate) fn carry_out(mut self, watch: &mut dyn Watch) -> Result<RunReport, OutputError> {
+        let outcome = self.commands(watch)?;
+        self.finish(outcome)
+    }
+
+    fn commands(&mut self, watch: &mut dyn Watch) -> Result<Outcome, OutputError> {
         let project = self.session.project;
-        self.recorder.model_input()?;
-        if project.is_dataset_alone() {
-            self.log_model()?;
+        let resumed = !self.resumed.is_empty();
+        if !resumed {
+            self.recorder.model_input()?;
+            if project.is_dataset_alone() {
+                self.log_model()?;
+            }
         }
-        for (place, step) in project.steps().iter().enumerate() {
-            self.log.command(&step.command.echo)?;
+        let first = self.command;
+        for (place, step) in project.steps().iter().enumerate().skip(first) {
+            self.command = place;
+            if self.under_way.is_none() {
+                // What a command has changed is known to the model only once it is simulated.
+                if !self.changed && self.keeper.as_ref().is_some_and(Keeper::is_due) {
+                    self.checkpoint(None)?;
+                }
+                self.log.command(&step.command.echo)?;
+            }
             let done = match &step.command.kind {
                 CommandKind::Model { .. } => self.log_model().map_err(Halt::from),
                 CommandKind::Change(change) => self.change(change, step),
@@ -292,7 +342,11 @@ impl<'a> Runner<'a> {
         watch: &mut dyn Watch,
     ) -> Result<(), Halt> {
         use SimulationKind as K;
-        let start = self.simulation.state().time;
+        let under_way = self.under_way.take();
+        let present = self.simulation.state().time;
+        let start = under_way
+            .as_ref()
+            .map_or(present, |under_way| under_way.start);
         let span = settings::span(simulate, start).map_err(|error| {
             let (code, text) = (error.code(), error.to_string());
             let project = self.session.project;
@@ -306,11 +360,21 @@ impl<'a> Runner<'a> {
             (K::Kinematic | K::Transient, _) => Mode::Kinematic,
             (K::Dynamic, _) => Mode::Dynamic,
         };
-        self.prepare(mode)?;
+        if under_way.is_none() {
+            self.prepare(mode)?;
+        }
         if matches!(mode, Mode::Static | Mode::QuasiStatic) {
-            return self.equilibria(span, watch);
+            return self.equilibria(span, under_way, watch);
         }
         let freedoms = self.simulation.system().degrees_of_freedom();
+        let missing = || Halt::refused("SIMULATE needs END or DURATION");
+        if under_way.is_some() {
+            let kind = match simulate.kind {
+                K::Kinematic | K::Transient if freedoms == 0 => DataKind::Kinematic,
+                _ => DataKind::Dynamic,
+            };
+            return self.motion(kind, span.ok_or_else(missing)?, under_way, watch);
+        }
         if mode == Mode::Kinematic && freedoms > 0 {
             self.prepare(Mode::Dynamic)?;
         }
@@ -333,8 +397,7 @@ impl<'a> Runner<'a> {
             }
             _ => DataKind::Dynamic,
         };
-        let span = span.ok_or_else(|| Halt::refused("SIMULATE needs END or DURATION"))?;
-        self.motion(kind, span, watch)
+        self.motion(kind, span.ok_or_else(missing)?, None, watch)
     }
 
     /// A warning about a command.
@@ -443,9 +506,9 @@ impl<'a> Runner<'a> {
         &mut self,
         kind: DataKind,
         span: TimeSpan,
+        under_way: Option<UnderWay>,
         watch: &mut dyn Watch,
     ) -> Result<(), Halt> {
-        let start = self.simulation.state().time;
         let integrator = self.dataset.integrator.as_ref();
         let kinematics = match kind {
             DataKind::Kinematic => self.dataset.kinematics.as_ref(),
@@ -458,15 +521,20 @@ impl<'a> Runner<'a> {
             self.options.error,
             second(&self.dataset),
         );
-        let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
-        self.log.begin(kind, &choice.settings, &notes, start)?;
-        let velocity = choice.settings.error * self.length / second(&self.dataset);
-        self.recorder
-            .begin_motion(kind, &self.simulation.snapshot(), velocity)?;
-        let times = span.outputs(start);
-        let mut times = times.as_slice();
         let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);
-        let mut next_row = start;
+        let mut paused = under_way.is_some();
+        let (start, mut taken, mut next_row) = if let Some(under_way) = under_way {
+            sensors.hold(&under_way.sensors);
+            (under_way.start, under_way.taken, under_way.next_row)
+        } else {
+            let start = self.simulation.state().time;
+            let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
+            self.log.begin(kind, &choice.settings, &notes, start)?;
+            let velocity = choice.settings.error * self.length / second(&self.dataset);
+            self.recorder
+                .begin_motion(kind, &self.simulation.snapshot(), velocity)?;
+            (start, 0, start)
+        };
         let effect = loop {
             let rows = Observe {
                 recorder: &mut self.recorder,
@@ -479,6 +547,8 @@ impl<'a> Runner<'a> {
                 length: self.length,
                 stop: None,
                 interrupted: false,
+                taken,
+                keeper: self.keeper.as_ref(),
             };
             let mut observer = Sensing {
                 rows,
@@ -486,9 +556,14 @@ impl<'a> Runner<'a> {
                 effect: Effect::None,
                 keeping: Keeping::new(&self.lowered, &mut self.kept),
             };
-            let ran = self
-                .simulation
-                .run(span.end, times, &choice.settings, &mut observer);
+            let (times, settings) = (span.outputs(start, taken), &choice.settings);
+            let ran = if paused {
+                self.simulation
+                    .go_on(span.end, times, settings, &mut observer)
+            } else {
+                self.simulation
+                    .run(span.end, times, settings, &mut observer)
+            };
             let Sensing {
                 rows,
                 effect,
@@ -496,15 +571,29 @@ impl<'a> Runner<'a> {
                 ..
             } = observer;
             self.changed |= keeping.changes_functions;
-            next_row = rows.next_row;
+            (next_row, taken) = (rows.next_row, rows.taken);
             let (stop, interrupted) = (rows.stop, rows.interrupted);
             self.log.slidings(self.simulation.slidings())?;
             if let Some(stop) = stop {
                 return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
             }
+            paused = ran == Ok(Ending::Paused);
             match ran {
-                Ok(Ending::Stopped) if interrupted => {
-                    return Err(Halt::Ended(Outcome::Interrupted));
+                Ok(Ending::Paused) => {
+                    if self.keeper.is_some() {
+                        let under_way = UnderWay {
+                            start,
+                            with_start: false,
+                            taken,
+                            next_row,
+                            sensors: sensors.held(),
+                        };
+                        self.checkpoint(Some(under_way))?;
+                    }
+                    if interrupted {
+                        return Err(Halt::Ended(Outcome::Interrupted));
+                    }
+                    continue;
                 }
                 Ok(Ending::Completed | Ending::Stopped) => {}
                 Err(error) => {
@@ -514,9 +603,7 @@ impl<'a> Runner<'a> {
                 }
             }
             // Functions that read what a sensor has just kept are other ones from here on.
-            let now = self.simulation.state().time;
-            times = &times[times.partition_point(|time| *time <= now)..];
-            if effect != Effect::None || times.is_empty() {
+            if effect != Effect::None || span.outputs(start, taken).next().is_none() {
                 break effect;
             }
             self.take_changes(self.lowered.mode)?;
@@ -527,11 +614,14 @@ impl<'a> Runner<'a> {
         Halt::of_event(effect)
     }
 
-    pub(crate) fn finish(mut self, outcome: Outcome) -> Result<RunReport, OutputError> {
+    fn finish(mut self, outcome: Outcome) -> Result<RunReport, OutputError> {
         let elapsed = self.started.elapsed().as_secs_f64();
         let status = status(&outcome);
         // What has failed has been told.
         let interrupted = outcome == Outcome::Interrupted;
+        if let Some(keeper) = self.keeper.as_ref().filter(|_| !interrupted) {
+            keeper.remove();
+        }
         let text = interrupted.then_some("interrupted; results so far are kept");
         self.log.frictions(&self.recorder.frictions)?;
         if let Some(balance) = self.recorder.account.balance() {
@@ -553,6 +643,7 @@ impl<'a> Runner<'a> {
             outcome,
             time: self.simulation.state().time,
             simulations: self.simulations,
+            resumed: self.resumed,
             failures: self.failures,
             outputs: count,
             warnings,

@@ -5,7 +5,6 @@
 //! [`mechanics::SavedState`]; all in the units of the model. Numbers are written so that reading gives
 //! the same bits back. docs/saved-systems.md describes it for users.
 
-use dataset::Source;
 use mechanics::SavedState;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -77,11 +76,6 @@ impl SavedSystem {
             return Err(FileError::Damaged);
         }
         serde_json::from_str(body).map_err(|_| FileError::Damaged)
-    }
-
-    /// The changes as the source of a command file.
-    pub(crate) fn changes(&self, name: &str) -> Source {
-        Source::from_text(name, self.changes.clone())
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dataset::{Change, CommandKind, Reload, SavedIn, Severity};
+use dataset::{Change, CommandKind, Reload, SavedIn, Severity, Source};
 use results::Header;
 
 use crate::channels::unit_names;
@@ -101,7 +101,7 @@ impl Runner<'_> {
         };
         let project = self.session.project;
         let (dataset, changes) = match reload.from {
-            SavedIn::File(_) => (self.saved_dataset(&saved), saved.changes.clone()),
+            SavedIn::File(_) => (self.changed_dataset(&saved.changes), saved.changes.clone()),
             // The state alone: the model stays as it was changed since.
             SavedIn::Buffer(_) => (self.dataset.clone(), self.changes_made.clone()),
         };
@@ -164,10 +164,10 @@ impl Runner<'_> {
         Ok((saved, shown))
     }
 
-    /// The dataset as given, with the changes that were made before the state was saved.
-    fn saved_dataset(&self, saved: &SavedSystem) -> dataset::Dataset {
+    /// The dataset as given, with the changes of a command file that were made in it before.
+    pub(crate) fn changed_dataset(&self, changes: &str) -> dataset::Dataset {
         let mut dataset = self.session.project.dataset().clone();
-        let source = saved.changes("RELOAD");
+        let source = Source::from_text("changes", changes.to_owned());
         let (file, _) = dataset::read_commands(&source);
         for command in file.commands {
             if let CommandKind::Change(change) = command.kind {
@@ -181,7 +181,7 @@ impl Runner<'_> {
 
     /// Puts the simulation of the dataset where it was saved.
     fn go_on_from(&mut self, saved: &SavedSystem, step: &SourcedCommand) -> Result<(), Halt> {
-        self.dataset = self.saved_dataset(saved);
+        self.dataset = self.changed_dataset(&saved.changes);
         let source = self.session.project.model_source().name();
         let lowered = lower(&self.dataset, source, &mut self.measures, &saved.setting);
         let lowered = lowered.map_err(|diagnostics| {

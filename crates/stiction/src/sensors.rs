@@ -6,6 +6,7 @@ use std::io::Write;
 use dataset::{Comparison, Dataset, Sensor, Switchable};
 use mechanics::expression::Program;
 use mechanics::{Observer, Snapshot, StepReport};
+use serde::{Deserialize, Serialize};
 
 use crate::lower::{Lowered, Outputs};
 use crate::recorder::{Observe, Stop};
@@ -27,9 +28,15 @@ struct Watched {
     function: Program,
     /// EVALUATE.
     evaluate: Option<Program>,
-    /// Function less VALUE at the output before.
+    last: Held,
+}
+
+/// What a sensor found at the output before.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Held {
+    /// Function less VALUE.
     before: Option<f64>,
-    /// Whether the event held at the output before.
+    /// Whether the event held.
     held: bool,
 }
 
@@ -90,11 +97,22 @@ impl Sensors {
                     place,
                     function: function.clone(),
                     evaluate: evaluate.clone(),
-                    before: None,
-                    held: false,
+                    last: Held::default(),
                 })
                 .collect(),
             outputs: outputs.clone(),
+        }
+    }
+
+    /// What they found at the output before.
+    pub(crate) fn held(&self) -> Vec<Held> {
+        self.watched.iter().map(|watched| watched.last).collect()
+    }
+
+    /// Takes over what they found at the output before.
+    pub(crate) fn hold(&mut self, held: &[Held]) {
+        for (watched, last) in self.watched.iter_mut().zip(held) {
+            watched.last = *last;
         }
     }
 
@@ -132,18 +150,19 @@ impl Sensors {
                 Comparison::LessOrEqual => difference <= sensor.error,
                 Comparison::Equal => {
                     let passed = watched
+                        .last
                         .before
                         .is_some_and(|before| before * difference < 0.0);
                     passed || difference.abs() <= sensor.error
                 }
             };
-            watched.before = Some(difference);
-            if holds && !watched.held {
+            watched.last.before = Some(difference);
+            if holds && !watched.last.held {
                 let evaluate = watched.evaluate.as_ref();
                 let evaluated = evaluate.map(|function| snapshot.evaluate(function, &results));
                 events.push(Event::new(sensor, snapshot.time(), function, evaluated));
             }
-            watched.held = holds;
+            watched.last.held = holds;
         }
         Ok(events)
     }
@@ -185,6 +204,10 @@ pub(crate) struct Sensing<'a, 'p, W: Write> {
 impl<W: Write> Observer for Sensing<'_, '_, W> {
     fn step(&mut self, report: &StepReport) -> bool {
         self.rows.step(report)
+    }
+
+    fn pauses(&mut self) -> bool {
+        self.rows.pauses()
     }
 
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {

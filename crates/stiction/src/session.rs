@@ -1,10 +1,13 @@
 //! A project that can be run: what it is told and what it tells.
 
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use mechanics::Statistics;
 
 use crate::balance::EnergyBalance;
+use crate::checkpoint::{Checkpoint, Job, ResumeError};
 use crate::eigensolution::ModeReport;
 use crate::lower::Measures;
 use crate::message::{InputError, Message};
@@ -17,6 +20,11 @@ use crate::runner::Runner;
 pub struct RunOptions {
     /// Error tolerance instead of that of the INTEGRATOR statement.
     pub error: Option<f64>,
+    /// Wall time between two checkpoints, zero for one after every step: `PREFIX.checkpoint` in the
+    /// folder of the results, from which [`Session::resume`] goes on. One is written at the start,
+    /// one where the run is interrupted, and none is left behind by a run that has ended. None: no
+    /// checkpoints.
+    pub checkpoint: Option<Duration>,
 }
 
 /// How far a run is.
@@ -37,7 +45,7 @@ pub trait Watch {
 }
 
 /// How a run ended. Whatever it is, the results up to then are in the files.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
     /// All commands were carried out.
     Completed,
@@ -52,7 +60,7 @@ pub enum Outcome {
 }
 
 /// A simulation or LINEAR that has failed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FailedCommand {
     /// The command on one line, as the message file echoes it.
     pub command: String,
@@ -71,6 +79,8 @@ pub struct RunReport {
     pub time: f64,
     /// Number of simulations that ran to their end.
     pub simulations: usize,
+    /// Times of the model from which the run was resumed.
+    pub resumed: Vec<f64>,
     /// The commands that failed, in their order.
     pub failures: Vec<FailedCommand>,
     /// Number of outputs written.
@@ -153,8 +163,34 @@ impl<'a> Session<'a> {
         options: RunOptions,
         watch: &mut dyn Watch,
     ) -> Result<RunReport, OutputError> {
-        let mut runner = Runner::new(self, folder, options)?;
-        let outcome = runner.commands(watch)?;
-        runner.finish(outcome)
+        let runner = Runner::new(self, folder, options, None).map_err(|error| match error {
+            ResumeError::Output(error) => error,
+            // Nothing is resumed.
+            ResumeError::Refused { path, cause } => OutputError::new(path, &cause),
+        })?;
+        runner.carry_out(watch)
+    }
+
+    /// Goes on with a run from the checkpoint in the folder of its results. These are cut back to what
+    /// was written before it, and then continued: on the same machine they are, byte for byte, those
+    /// of a run that was never interrupted, but for the times that the message file tells.
+    ///
+    /// # Errors
+    /// Without a checkpoint of the same files and options by the same build of the program; and files
+    /// that cannot be written.
+    pub fn resume(
+        &self,
+        folder: &Path,
+        options: RunOptions,
+        watch: &mut dyn Watch,
+    ) -> Result<RunReport, ResumeError> {
+        let path = Checkpoint::path(folder, self.project.prefix());
+        let job = Job::new(self.project, options.error);
+        let checkpoint = Checkpoint::read(&path, &job).map_err(|cause| ResumeError::Refused {
+            path: path.display().to_string(),
+            cause,
+        })?;
+        let runner = Runner::new(self, folder, options, Some(checkpoint))?;
+        Ok(runner.carry_out(watch)?)
     }
 }

@@ -273,10 +273,18 @@ pub(crate) fn span(simulate: &Simulate, start: f64) -> Result<Option<TimeSpan>, 
 }
 
 impl TimeSpan {
-    /// Output times `start + k·step`, rising, the last exactly the end.
-    pub(crate) fn outputs(&self, start: f64) -> Vec<f64> {
-        let inner = (1..self.count).map(|k| start + k as f64 * self.step);
-        inner.chain([self.end]).collect()
+    /// Output times `start + k·step`, rising, the last exactly the end; those after the first
+    /// `taken`.
+    pub(crate) fn outputs(&self, start: f64, taken: usize) -> impl Iterator<Item = f64> + use<> {
+        let (step, end, count) = (self.step, self.end, self.count);
+        let time = move |k| {
+            if k < count {
+                start + k as f64 * step
+            } else {
+                end
+            }
+        };
+        (taken + 1..=count).map(time)
     }
 
     /// What to tell about it.
@@ -304,7 +312,8 @@ mod tests {
     #[test]
     fn the_last_output_is_the_end() {
         let times = |simulate: &Simulate, start| {
-            span(simulate, start).map(|span| span.map_or(Vec::new(), |span| span.outputs(start)))
+            span(simulate, start)
+                .map(|span| span.map_or(Vec::new(), |span| span.outputs(start, 0).collect()))
         };
         assert_eq!(
             times(&simulate(0.25, None, Some(0.1)), 0.0).unwrap(),

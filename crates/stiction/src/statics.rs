@@ -3,6 +3,7 @@
 use mechanics::Observer;
 use results::DataKind;
 
+use crate::checkpoint::{Keeper, UnderWay};
 use crate::failure;
 use crate::recorder::Observe;
 use crate::runner::{Halt, Recorded, Runner};
@@ -16,30 +17,35 @@ impl Runner<'_> {
     pub(crate) fn equilibria(
         &mut self,
         span: Option<TimeSpan>,
+        under_way: Option<UnderWay>,
         watch: &mut dyn Watch,
     ) -> Result<(), Halt> {
-        let start = self.simulation.state().time;
         let (settings, note) = settings::equilibrium(self.dataset.equilibrium.as_ref());
-        let (kind, times) = match span {
-            None => (DataKind::Static, vec![start]),
-            Some(span) => {
-                // An equilibrium that is recorded is where the sequence starts.
-                let first = (self.instant != Recorded::Equilibrium).then_some(start);
-                let times = first.into_iter().chain(span.outputs(start));
-                (DataKind::QuasiStatic, times.collect())
-            }
+        let kind = match span {
+            None => DataKind::Static,
+            Some(_) => DataKind::QuasiStatic,
         };
-        self.log.note("\nBegin Static Solution")?;
-        self.log.note(&format!(
-            "error {:e}, imbalance {:e}, stability {:e}, at most {} iterations",
-            settings.error, settings.imbalance, settings.stability, settings.iterations
-        ))?;
-        for note in note.into_iter().chain(span.and_then(|span| span.note())) {
-            self.log.note(&note)?;
-        }
         let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);
+        let (start, with_start, taken) = if let Some(under_way) = under_way {
+            sensors.hold(&under_way.sensors);
+            (under_way.start, under_way.with_start, under_way.taken)
+        } else {
+            self.log.note("\nBegin Static Solution")?;
+            self.log.note(&format!(
+                "error {:e}, imbalance {:e}, stability {:e}, at most {} iterations",
+                settings.error, settings.imbalance, settings.stability, settings.iterations
+            ))?;
+            for note in note.into_iter().chain(span.and_then(|span| span.note())) {
+                self.log.note(&note)?;
+            }
+            // An equilibrium that is recorded is where a sequence starts.
+            let with_start = span.is_none() || self.instant != Recorded::Equilibrium;
+            (self.simulation.state().time, with_start, 0)
+        };
+        let first = with_start.then_some(start).into_iter();
+        let others = span.into_iter().flat_map(|span| span.outputs(start, 0));
         let mut effect = Effect::None;
-        for (place, time) in times.into_iter().enumerate() {
+        for (place, time) in first.chain(others).enumerate().skip(taken) {
             let found = self.simulation.find_equilibrium(time, &settings);
             let found = found.map_err(|error| {
                 let source = self.session.project.model_source();
@@ -54,12 +60,25 @@ impl Runner<'_> {
                  {:.5e}",
                 found.iterations, found.imbalance
             ))?;
-            effect = self.record_equilibrium(&mut sensors, watch)?;
+            let goes_on;
+            (effect, goes_on) = self.record_equilibrium(&mut sensors, watch)?;
             // Functions that read what a sensor has just kept are other ones from here on.
             self.take_changes(self.lowered.mode)?;
             sensors.renew(&self.lowered.outputs);
             if effect != Effect::None {
                 break;
+            }
+            if !goes_on || self.keeper.as_ref().is_some_and(Keeper::is_due) {
+                self.checkpoint(Some(UnderWay {
+                    start,
+                    with_start,
+                    taken: place + 1,
+                    next_row: f64::INFINITY,
+                    sensors: sensors.held(),
+                }))?;
+            }
+            if !goes_on {
+                return Err(Halt::Ended(Outcome::Interrupted));
             }
         }
         self.simulations += 1;
@@ -67,11 +86,12 @@ impl Runner<'_> {
         Halt::of_event(effect)
     }
 
+    /// Writes an equilibrium; returns what events do to the run, and whether the watch lets it go on.
     fn record_equilibrium(
         &mut self,
         sensors: &mut Sensors,
         watch: &mut dyn Watch,
-    ) -> Result<Effect, Halt> {
+    ) -> Result<(Effect, bool), Halt> {
         let snapshot = self.simulation.snapshot();
         let rows = Observe {
             recorder: &mut self.recorder,
@@ -84,6 +104,8 @@ impl Runner<'_> {
             length: self.length,
             stop: None,
             interrupted: false,
+            taken: 0,
+            keeper: None,
         };
         let mut observer = Sensing {
             rows,
@@ -108,10 +130,6 @@ impl Runner<'_> {
             end: self.last_end,
             statistics: self.simulation.statistics(),
         };
-        if watch.progress(&progress) {
-            Ok(effect)
-        } else {
-            Err(Halt::Ended(Outcome::Interrupted))
-        }
+        Ok((effect, watch.progress(&progress)))
     }
 }

@@ -1,11 +1,13 @@
 //! What messages are about: one table of stable names, what they mean and the cure.
 
+use serde::{Deserialize, Serialize};
+
 use crate::names;
 
 macro_rules! codes {
     ($($(#[doc = $meaning:literal])* $variant:ident = $text:literal, $cure:literal;)*) => {
         /// What a [`Diagnostic`](super::Diagnostic) is about; its text is stable and fit for filters.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Code { $($(#[doc = $meaning])* $variant,)* }
 
         impl Code {

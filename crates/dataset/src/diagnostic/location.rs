@@ -2,10 +2,11 @@
 
 use super::Diagnostic;
 use crate::source::{Source, Span};
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// A place in a text as people count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place {
     /// Line, counted from 1.
     pub line: usize,
@@ -14,7 +15,7 @@ pub struct Place {
 }
 
 /// Where a [`Diagnostic`] is in its source: what is needed to show it without the source.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Location {
     /// The first character.
     pub start: Place,

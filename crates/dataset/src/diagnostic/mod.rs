@@ -7,11 +7,12 @@ mod location;
 pub use code::Code;
 pub(crate) use list::Diagnostics;
 pub use location::{Location, Place};
+use serde::{Deserialize, Serialize};
 
 use crate::source::Span;
 
 /// How serious a [`Diagnostic`] is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Severity {
     /// The model cannot be used.
     Error,
@@ -34,7 +35,7 @@ impl Severity {
 }
 
 /// New text for a place of the source, which a program can put there without asking.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Replacement {
     /// The place; empty where the text is put in between.
     pub span: Span,
@@ -43,7 +44,7 @@ pub struct Replacement {
 }
 
 /// One message about one place of a source text.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Diagnostic {
     /// What the message is about.
     pub code: Code,

@@ -1,9 +1,10 @@
 //! What a step discretises, and by which formulas.
 
 use numerics::bdf::{Family, Newmark};
+use serde::{Deserialize, Serialize};
 
 /// How the equations are stepped through time: the formulas, and how the constraints enter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Formulation {
     /// Backward differentiation with position constraints only (index 3); velocities and reactions
     /// follow by differentiation.
@@ -33,7 +34,7 @@ pub enum Formulation {
 }
 
 /// How constraints enter a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Index {
     /// Accelerations meet the constraints; positions and velocities are brought back after.
     One,

@@ -41,9 +41,11 @@ use std::ops::Range;
 
 use numerics::bdf::{self, Verdict, Within};
 use numerics::linear::{FrontalLu, Matrix};
+use serde::{Deserialize, Serialize};
 
 use crate::instant::Failure;
 use crate::joint_friction::Memory;
+use crate::model::Model;
 use crate::state::{POSITIONS, State, VELOCITIES};
 use crate::system::System;
 pub use formulation::Formulation;
@@ -77,7 +79,7 @@ enum MatrixUse {
 }
 
 /// Counts of the work done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Work {
     /// Evaluations of the residual.
     pub residuals: usize,
@@ -88,7 +90,7 @@ pub struct Work {
 }
 
 /// The step equations with their storage.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Dynamics {
     pub(crate) system: System,
     formulation: Formulation,
@@ -188,6 +190,12 @@ impl Dynamics {
         self.scales = scales;
         self.factored = None;
         self.rate = 0.0;
+    }
+
+    /// Gives what was read its model back.
+    pub(crate) fn take_model(&mut self, model: Model) {
+        self.system.take_model(model);
+        self.switching.hold_branches(&mut self.system);
     }
 
     /// Raises the scales to the velocities and differential states of `state`, from which a run to

@@ -5,6 +5,8 @@
 //! a motion of low order has works of twice that order, so that the polynomial's degree is higher
 //! than the order of the step.
 
+use serde::{Deserialize, Serialize};
+
 /// Instants that the polynomial goes through, at most; the new one counts.
 const MOST: usize = 7;
 /// The same at low order.
@@ -19,7 +21,7 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 
 /// Works up to the last accepted step, with the powers that it takes to go on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Quadrature {
     /// Times of the last accepted instants, newest first, and how many there are.
     times: [f64; MOST - 1],

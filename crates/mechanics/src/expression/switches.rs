@@ -16,9 +16,10 @@
 
 use super::{Binary, Input, Operation, Program, Register, Unary, select};
 use crate::scalar::{Jet, Scalar};
+use serde::{Deserialize, Serialize};
 
 /// How a switch is evaluated.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Branch {
     /// By the value of its argument.
     #[default]
@@ -33,7 +34,7 @@ pub(crate) enum Branch {
 
 /// A switch between two cells: `(1 − s) f_lower + s f_upper` with `s = share + steepness (x − boundary)`
 /// at the argument x. The share is not cut off at 0 and 1, so that the function stays smooth.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Sharing {
     /// The cell below the boundary.
     pub(crate) lower: f64,

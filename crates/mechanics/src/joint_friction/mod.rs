@@ -29,6 +29,7 @@ mod values;
 
 use friction::Load;
 use nalgebra::{ArrayStorage, Matrix3, SMatrix, Vector3};
+use serde::{Deserialize, Serialize};
 
 pub(crate) use memory::StepEnd;
 pub use memory::{Memory, Tally};
@@ -58,7 +59,7 @@ pub(crate) struct Contribution {
 
 /// What the integrator's formula says of the bristle deflection: `z = past + gamma z'`. At an instant
 /// `gamma` is zero and `past` the deflection itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BristlePast {
     pub(crate) past: [f64; 3],
     pub(crate) gamma: f64,

@@ -1,10 +1,12 @@
 //! Dynamics between output times: steps, outputs within them, restarts.
 
+use std::borrow::Borrow;
+
 use numerics::bdf::{self, Bdf, Family};
 
 use super::failure::jammed;
 use super::report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
-use super::{Engine, Simulation};
+use super::{Crossing, Engine, Simulation};
 use crate::dynamics::{Dynamics, Index, Sliding, Work};
 use crate::instant::{Failure, Instant};
 use crate::model::Label;
@@ -20,36 +22,66 @@ const PLACE_JUMP: f64 = 10.0;
 
 impl Simulation {
     /// Integrates to `end`, reporting every accepted step and the states at the rising `outputs`
-    /// (the last of which should be `end`).
+    /// (the last of which should be `end`), which are asked for one by one.
     ///
     /// # Errors
     /// [`RunError`]; the state is then that of the last good output.
     pub fn run(
         &mut self,
         end: f64,
-        outputs: &[f64],
+        outputs: impl IntoIterator<Item = impl Borrow<f64>>,
         settings: &Settings,
         observer: &mut impl Observer,
     ) -> Result<Ending, RunError> {
-        let limits = bdf::Settings {
-            family: settings.formulation.family(),
-            highest_order: settings.highest_order,
-            longest_step: settings.longest_step,
-            shortest_step: settings.shortest_step,
-        };
         self.state.set_shares(self.system.switch_count());
         let kept = self.engine.take();
         let fits = |engine: &Engine| engine.bdf.value().len() == self.state.values.len();
         let mut engine = match kept.filter(fits) {
             Some(engine) => engine,
-            None => Engine::new(self, limits),
+            None => Engine::new(self, limits(settings)),
         };
-        let ending = self.integrate(&mut engine, end, outputs, settings, limits, observer);
+        let started = self.start(&mut engine, end, settings);
+        let ending =
+            started.and_then(|()| self.integrate(&mut engine, end, outputs, settings, observer));
+        self.leave(engine, ending)
+    }
+
+    /// Goes on with a run that has paused, to the same end and with the same settings; `outputs` are
+    /// those that have not been told of. Gives bit for bit what the run would have given without the
+    /// pause.
+    ///
+    /// # Errors
+    /// [`RunError`], as in [`Simulation::run`].
+    ///
+    /// # Panics
+    /// When no run has paused.
+    pub fn go_on(
+        &mut self,
+        end: f64,
+        outputs: impl IntoIterator<Item = impl Borrow<f64>>,
+        settings: &Settings,
+        observer: &mut impl Observer,
+    ) -> Result<Ending, RunError> {
+        let mut engine = self.engine.take().expect("only a paused run can go on");
+        let ending = self.integrate(&mut engine, end, outputs, settings, observer);
+        self.leave(engine, ending)
+    }
+
+    /// Leaves the run, unless it only pauses.
+    fn leave(
+        &mut self,
+        mut engine: Engine,
+        ending: Result<Ending, RunError>,
+    ) -> Result<Ending, RunError> {
+        if ending == Ok(Ending::Paused) {
+            self.engine = Some(engine);
+            return ending;
+        }
         self.system.free_switches();
         self.state.set_shares(0);
         for sliding in engine.dynamics.take_slidings() {
             let same =
-                |s: &&Sliding| (&s.element, s.function) == (&sliding.element, sliding.function);
+                |s: &&Sliding| (&s.element, &s.function) == (&sliding.element, &sliding.function);
             if self.slidings.iter().find(same).is_none() {
                 self.slidings.push(sliding);
             }
@@ -58,22 +90,22 @@ impl Simulation {
         ending
     }
 
-    fn integrate(
+    /// Begins a run from the present state.
+    fn start(
         &mut self,
         engine: &mut Engine,
         end: f64,
-        outputs: &[f64],
         settings: &Settings,
-        limits: bdf::Settings,
-        observer: &mut impl Observer,
-    ) -> Result<Ending, RunError> {
+    ) -> Result<(), RunError> {
         let Engine {
-            before,
             instant,
             dynamics,
             gains,
             bdf,
+            crossing,
+            ..
         } = engine;
+        *crossing = Crossing::NONE;
         // Changed functions may have left the state off the constraints by rounding.
         self.settle(instant)?;
         let jam = gains.look(&mut self.system, &self.multipliers);
@@ -88,16 +120,36 @@ impl Simulation {
         dynamics.steps = [settings.shortest_step, settings.longest_step];
         dynamics.observe(&self.state, end);
         dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
-        bdf.set_settings(limits);
+        bdf.set_settings(limits(settings));
         let slope = self.slope();
         let first = match settings.first_step {
             Some(first) => first,
             None => self.first_step(instant, dynamics, &slope, end, settings),
         };
         self.begin(bdf, dynamics, &slope, first);
-        let mut next = 0;
+        Ok(())
+    }
+
+    /// Steps to the end, or until the observer stops or pauses the run.
+    fn integrate(
+        &mut self,
+        engine: &mut Engine,
+        end: f64,
+        outputs: impl IntoIterator<Item = impl Borrow<f64>>,
+        settings: &Settings,
+        observer: &mut impl Observer,
+    ) -> Result<Ending, RunError> {
+        let Engine {
+            before,
+            instant,
+            dynamics,
+            gains,
+            bdf,
+            crossing,
+        } = engine;
+        let outputs = outputs.into_iter().map(|time| *time.borrow());
+        let mut outputs = outputs.peekable();
         let mut ending = Ending::Completed;
-        let (mut crossed, mut crossing) = (f64::NEG_INFINITY, false);
         while bdf.time() < end && ending == Ending::Completed {
             let start = bdf.time();
             let advanced = bdf.advance(dynamics, end);
@@ -109,21 +161,23 @@ impl Simulation {
             if let Err(error) = advanced {
                 // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
                 // has only positions to meet.
-                let further = bdf.time() > crossed;
+                let further = bdf.time() > crossing.from;
                 if settings.formulation.index() == Index::Three || !further {
                     let jam = gains.explain(&mut dynamics.system, &dynamics.multipliers);
                     return Err(
                         jam.map_or_else(|| self.run_error(&error), |jam| jammed(bdf.time(), &jam))
                     );
                 }
-                crossed = bdf.time();
                 bdf.set_settings(bdf::Settings {
                     family: Family::BackwardDifferences,
-                    ..limits
+                    ..limits(settings)
                 });
                 self.restart(bdf, dynamics, instant, settings)?;
                 dynamics.cross();
-                crossing = true;
+                *crossing = Crossing {
+                    from: bdf.time(),
+                    goes_on: true,
+                };
                 continue;
             }
             if bdf.time() == start {
@@ -142,9 +196,8 @@ impl Simulation {
                 order: bdf.order(),
                 statistics: self.statistics,
             };
-            while next < outputs.len() && outputs[next] <= bdf.time() {
-                self.take(bdf, dynamics, outputs[next], instant)?;
-                next += 1;
+            while let Some(output) = outputs.next_if(|time| *time <= bdf.time()) {
+                self.take(bdf, dynamics, output, instant)?;
                 if !observer.output(&self.snapshot()) {
                     ending = Ending::Stopped;
                     break;
@@ -158,13 +211,16 @@ impl Simulation {
                 return Err(jammed(bdf.time(), &jam));
             }
             // Only now: outputs within the step needed its past.
-            if crossing && !dynamics.crosses() {
-                crossing = false;
-                bdf.set_settings(limits);
+            if crossing.goes_on && !dynamics.crosses() {
+                crossing.goes_on = false;
+                bdf.set_settings(limits(settings));
                 self.restart(bdf, dynamics, instant, settings)?;
             }
             if dynamics.is_at_jump() {
                 self.pass_jump(bdf, dynamics, instant, end, settings)?;
+            }
+            if ending == Ending::Completed && bdf.time() < end && observer.pauses() {
+                ending = Ending::Paused;
             }
         }
         if ending == Ending::Completed && self.state.time != end {
@@ -434,6 +490,16 @@ impl Simulation {
         self.system
             .write_powers(&self.multipliers, &mut slope[works]);
         slope
+    }
+}
+
+/// The limits of the integrator, and its formulas.
+fn limits(settings: &Settings) -> bdf::Settings {
+    bdf::Settings {
+        family: settings.formulation.family(),
+        highest_order: settings.highest_order,
+        longest_step: settings.longest_step,
+        shortest_step: settings.shortest_step,
     }
 }
 

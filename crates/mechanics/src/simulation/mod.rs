@@ -3,13 +3,16 @@
 mod energy;
 mod failure;
 mod integration;
+mod paused;
 mod report;
 mod saved;
 mod statics;
 
 use numerics::bdf::{self, Bdf};
+use serde::{Deserialize, Serialize};
 
 pub use energy::{gravity_energy, kinetic_energy};
+pub use paused::Paused;
 pub use report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
 pub use saved::{ForeignState, SavedState};
 
@@ -23,7 +26,7 @@ use crate::state::State;
 use crate::system::System;
 
 /// A model with its state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Simulation {
     pub(crate) system: System,
     pub(crate) state: State,
@@ -42,8 +45,8 @@ pub struct Simulation {
     engine: Option<Engine>,
 }
 
-/// What a run needs beside the simulation's state.
-#[derive(Clone, Debug)]
+/// What a run needs beside the simulation's state, and where it is when it pauses.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Engine {
     /// Counts of engines before this one.
     before: Statistics,
@@ -51,6 +54,23 @@ struct Engine {
     dynamics: Dynamics,
     gains: GainWatch,
     bdf: Bdf,
+    crossing: Crossing,
+}
+
+/// Steps of I3 in the place of those of SI2, past an instant that SI2 has not passed.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Crossing {
+    /// The last such instant.
+    from: f64,
+    /// Whether the steps go on.
+    goes_on: bool,
+}
+
+impl Crossing {
+    const NONE: Self = Self {
+        from: f64::NEG_INFINITY,
+        goes_on: false,
+    };
 }
 
 impl Engine {
@@ -62,6 +82,7 @@ impl Engine {
             dynamics: Dynamics::new(system.clone(), simulation.scales),
             gains: GainWatch::new(system),
             bdf: Bdf::new(simulation.state.values.len(), limits),
+            crossing: Crossing::NONE,
         }
     }
 }

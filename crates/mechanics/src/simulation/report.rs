@@ -1,6 +1,7 @@
 //! How to integrate, and what is told of it.
 
 use numerics::bdf;
+use serde::{Deserialize, Serialize};
 
 use crate::dynamics::{Formulation, Work};
 use crate::model::Label;
@@ -27,7 +28,7 @@ pub struct Settings {
 }
 
 /// What the integrator did so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Steps, rejections and starts.
     pub steps: bdf::Statistics,
@@ -57,6 +58,10 @@ pub trait Observer {
     fn step(&mut self, report: &StepReport) -> bool;
     /// At every output time; false stops the run.
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool;
+    /// Whether the run is to pause here, after a step and its outputs.
+    fn pauses(&mut self) -> bool {
+        false
+    }
 }
 
 /// How a run ended.
@@ -66,6 +71,8 @@ pub enum Ending {
     Completed,
     /// The observer stopped it.
     Stopped,
+    /// The observer has it pause: it can be written out, and it can go on.
+    Paused,
 }
 
 /// A run failed; everything up to its time was reported to the observer.

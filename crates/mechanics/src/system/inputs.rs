@@ -3,9 +3,10 @@
 use super::System;
 use super::newton_matrix::Weights;
 use crate::expression::Input;
+use serde::{Deserialize, Serialize};
 
 /// Values that functions read, as they were set last.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Inputs {
     pub(super) time: f64,
     pub(super) measures: Vec<f64>,

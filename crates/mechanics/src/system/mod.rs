@@ -73,15 +73,20 @@ pub struct History {
     pub angles: Vec<f64>,
 }
 
-/// A model's equations and the storage to evaluate them.
-#[derive(Clone, Debug)]
+/// A model's equations and the storage to evaluate them. Written out it is without its model and
+/// what follows from that, see `take_model`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct System {
+    #[serde(skip)]
     pub(crate) model: Model,
+    #[serde(skip)]
     pub(crate) constraints: Vec<Constraint>,
+    #[serde(skip)]
     pairs: Vec<PairGroup>,
     /// Constraint of each row in force.
     pub(crate) rows: Vec<usize>,
     /// Contributions to the reaction of each friction's joint.
+    #[serde(skip)]
     reactions: Vec<Vec<Contribution>>,
     /// What is known of each friction's bristles before the instant is solved.
     bristles: Vec<BristlePast>,
@@ -93,13 +98,19 @@ pub struct System {
     pub(crate) evaluated: Vec<Evaluated>,
     inputs: Inputs,
     /// The elements whose force each algebraic variable reads.
+    #[serde(skip)]
     acting: Vec<Vec<(ForceElement, Side)>>,
     /// Measures that the equations (not only outputs) read.
+    #[serde(skip)]
     needed: Vec<bool>,
+    #[serde(skip)]
     measure_bodies: Vec<Vec<usize>>,
     measure_slopes: Vec<Vec<[f64; 12]>>,
+    #[serde(skip)]
     registers: Vec<f64>,
+    #[serde(skip)]
     adjoints: Vec<f64>,
+    #[serde(skip)]
     jets: Vec<Jet>,
 }
 
@@ -195,6 +206,33 @@ impl System {
         let all = vec![true; system.constraints.len()];
         system.set_active(&all);
         system
+    }
+
+    /// Gives a system that was read its model back, and all that follows from it.
+    pub(crate) fn take_model(&mut self, model: Model) {
+        let Self {
+            model,
+            mut constraints,
+            pairs,
+            reactions,
+            acting,
+            needed,
+            measure_bodies,
+            registers,
+            adjoints,
+            jets,
+            ..
+        } = Self::new(model);
+        for constraint in &mut constraints {
+            constraint.row = None;
+        }
+        for (row, &place) in self.rows.iter().enumerate() {
+            constraints[place].row = Some(row);
+        }
+        (self.model, self.constraints, self.pairs) = (model, constraints, pairs);
+        self.reactions = reactions;
+        (self.acting, self.needed, self.measure_bodies) = (acting, needed, measure_bodies);
+        (self.registers, self.adjoints, self.jets) = (registers, adjoints, jets);
     }
 
     /// The model.

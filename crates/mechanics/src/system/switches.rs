@@ -4,12 +4,13 @@ use super::System;
 use crate::expression::{Branch, Input, Program};
 use crate::model::{Definition, DifferentialState, Element, Form, Label};
 use crate::scalar::Jet;
+use serde::{Deserialize, Serialize};
 
 /// Variables that read one another, one behind the other, through which units are followed.
 const NESTING: usize = 3;
 
 /// Whose function a switch is in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum Host {
     Force(usize),
     Constraint(usize),
@@ -19,14 +20,14 @@ enum Host {
 }
 
 /// A switch of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SwitchPlace {
     host: Host,
     switch: usize,
 }
 
 /// What a switch shows at an instant.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Reading {
     /// Its argument.
     pub(crate) argument: f64,

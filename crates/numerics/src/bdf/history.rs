@@ -1,5 +1,6 @@
 //! The past of a solution as divided differences.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Nodes that a history can keep.
@@ -11,7 +12,7 @@ pub(super) const MOST_NODES: usize = 14;
 /// A start from a value and a slope is the double node `t_0 = t_1`, whose divided difference is
 /// the slope. So the first step is already of second order, and no special starting formula is
 /// needed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct History {
     size: usize,
     /// How many nodes are kept.

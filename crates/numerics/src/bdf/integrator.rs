@@ -1,5 +1,6 @@
 //! Step and order control.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 use super::adams::{error_integral, integrals};
@@ -12,7 +13,7 @@ const VALUE_NODES: usize = Family::BackwardDifferences.highest_order() + 2;
 const SLOPE_NODES: usize = Family::Adams.highest_order() + 1;
 
 /// Limits that the caller sets.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// The formulas.
     pub family: Family,
@@ -25,7 +26,7 @@ pub struct Settings {
 }
 
 /// What happened since the integrator was made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: usize,
@@ -86,7 +87,7 @@ pub enum Error<F> {
 /// }
 /// assert!((bdf.value()[0] - (-1.0_f64).exp()).abs() < 1e-6);
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bdf {
     settings: Settings,
     values: History,

@@ -13,6 +13,7 @@
 //! equations for `y` ([`System::solve`]); this module keeps the past ([`History`]), predicts,
 //! estimates the error and chooses step and order ([`Bdf`]).
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 mod adams;
@@ -25,7 +26,7 @@ pub use history::History;
 pub use integrator::{Bdf, Error, Settings, Statistics};
 
 /// A family of formulas.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Family {
     /// Backward differentiation, orders 1 to 5, for stiff equations; beyond 5 they are hardly
     /// stable.
@@ -41,7 +42,7 @@ pub enum Family {
 /// ```text
 /// x = x₀ + h u₀ + h² ((½ − β) a₀ + β a),     u = u₀ + h ((1 − γ) a₀ + γ a)
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Newmark {
     /// β.
     pub beta: f64,

@@ -12,6 +12,7 @@
 
 use super::fronts::Fronts;
 use super::{Matrix, Singular};
+use serde::{Deserialize, Serialize};
 
 /// A pivot must reach this part of the largest entry of its column: small enough that mechanisms seldom
 /// delay one, large enough that rounding grows little.
@@ -20,7 +21,7 @@ const THRESHOLD: f64 = 5e-3;
 const SMALLEST_PIVOT: f64 = 1e-13;
 
 /// A front as it was eliminated last.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Eliminated {
     /// Number of pivots found.
     pivots: usize,
@@ -35,7 +36,7 @@ struct Eliminated {
 }
 
 /// What a front leaves to its parent.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Rest {
     front: usize,
     /// Where the values start in the stack.
@@ -58,7 +59,7 @@ struct Rest {
 /// lu.solve(&mut x);
 /// assert_eq!(x, [1.0, 1.0]);
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FrontalLu {
     groups: Vec<Option<u32>>,
     /// None before the first factorisation.

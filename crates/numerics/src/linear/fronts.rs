@@ -2,6 +2,7 @@
 
 use super::Matrix;
 use super::ordering::Graph;
+use serde::{Deserialize, Serialize};
 
 /// Multiplications that a front costs beside its elimination: what is saved where two are one.
 const OVERHEAD: f64 = 400.0;
@@ -10,7 +11,7 @@ const GROWTH: f64 = 1.1;
 
 /// A dense block: the rows and columns of the unknowns that it eliminates, and of those later ones
 /// that they are coupled with, its border.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Front {
     /// Number of unknowns eliminated here.
     pub(super) own: usize,
@@ -25,7 +26,7 @@ pub(super) struct Front {
 }
 
 /// An entry of the matrix and its place in a front.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Entry {
     /// Place among the values of the matrix.
     pub(super) value: u32,
@@ -34,7 +35,7 @@ pub(super) struct Entry {
 }
 
 /// All fronts, each after its children and these one after the other (postorder).
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Fronts {
     pub(super) fronts: Vec<Front>,
     pub(super) unknowns: Vec<u32>,

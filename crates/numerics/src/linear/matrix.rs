@@ -1,5 +1,7 @@
 //! A square sparse matrix that is assembled again and again in the same order.
 
+use serde::{Deserialize, Serialize};
+
 /// Sparse square matrix, compressed by rows.
 ///
 /// Elements add their entries with [`Matrix::add`]. The first assembly records which entry each
@@ -18,7 +20,7 @@
 /// }
 /// assert_eq!(a.values(), &[4.0, 2.0]);
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Matrix {
     size: usize,
     /// Row and column of each call, in order; kept to check the order in debug builds.

@@ -32,7 +32,13 @@ fn example(file: &str) -> PathBuf {
 }
 
 fn balance(project: &Project, error: f64) -> EnergyBalance {
-    let (report, _) = run(project, RunOptions { error: Some(error) });
+    let (report, _) = run(
+        project,
+        RunOptions {
+            error: Some(error),
+            ..RunOptions::default()
+        },
+    );
     assert_eq!(report.outcome, Outcome::Completed);
     report.balance.unwrap()
 }

@@ -218,7 +218,13 @@ fn the_slider_sticks_and_slips_as_its_equations_say() {
     };
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/lugre-slider");
     let project = Project::load(&file.join("lugre_slider.acf")).unwrap();
-    let (_, finer) = run(&project, RunOptions { error: Some(1e-8) });
+    let (_, finer) = run(
+        &project,
+        RunOptions {
+            error: Some(1e-8),
+            ..RunOptions::default()
+        },
+    );
     let case = Case {
         section: Section::Joint,
         id: "LuGre slider",

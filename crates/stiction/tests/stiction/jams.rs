@@ -28,7 +28,13 @@ fn a_jam_on_the_way_to_the_stick_is_never_passed_over() {
     for error in [1e-3, 1e-5, 1e-7] {
         let mut project = Project::load(&path).unwrap();
         project.push_dynamic(1.0, Some(10), None);
-        let (report, _) = run(&project, RunOptions { error: Some(error) });
+        let (report, _) = run(
+            &project,
+            RunOptions {
+                error: Some(error),
+                ..RunOptions::default()
+            },
+        );
         let Outcome::IntegrationFailed(text) = &report.outcome else {
             panic!("{:?} at {error:e}", report.outcome)
         };

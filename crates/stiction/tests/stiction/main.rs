@@ -28,6 +28,7 @@ mod linear_systems;
 mod lowering;
 mod machines;
 mod requests;
+mod resuming;
 mod run_time;
 mod runs;
 mod saving;

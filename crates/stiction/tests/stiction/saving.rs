@@ -9,7 +9,7 @@ use crate::shared::{GoOn, scratch_folder};
 
 /// A wheel of many turns whose brake slips and sticks, a block on bristles, and a state that follows;
 /// what drives them reads angles, states and reactions.
-const MODEL: &str = "A brake, a block and a filter
+pub(crate) const MODEL: &str = "A brake, a block and a filter
 ACCGRAV/JGRAV=-9.81
 PART/1, GROUND
 MARKER/1, PART=1

@@ -45,7 +45,13 @@ pub(crate) fn run_with_log(project: &Project, options: RunOptions) -> (RunReport
 
 /// Runs a project, which must go through.
 pub(crate) fn complete(project: &Project, error: Option<f64>) -> ResFile {
-    let (report, results) = run(project, RunOptions { error });
+    let (report, results) = run(
+        project,
+        RunOptions {
+            error,
+            ..RunOptions::default()
+        },
+    );
     assert_eq!(report.outcome, Outcome::Completed, "{}", project.prefix());
     results
 }

@@ -86,11 +86,11 @@ impl Case {
         let mut simulation = self.simulation.clone();
         let settings = integrator.settings(error, self.end);
         let clock = Clock::start();
-        let ending = simulation.run(self.end, &[self.end], &settings, &mut Silent);
+        let ending = simulation.run(self.end, [self.end], &settings, &mut Silent);
         let times = clock.read();
         match ending {
             Err(failure) => Err(failure.to_string()),
-            Ok(Ending::Stopped) => Err(format!("more than {MOST_STEPS} steps")),
+            Ok(Ending::Stopped | Ending::Paused) => Err(format!("more than {MOST_STEPS} steps")),
             Ok(Ending::Completed) => Ok(Timed {
                 times,
                 values: (self.read)(&simulation),

@@ -8,6 +8,7 @@
 //! the middle of them.
 
 use numerics::bdf;
+use serde::{Deserialize, Serialize};
 
 use super::Switching;
 use crate::dynamics::Dynamics;
@@ -18,7 +19,7 @@ use crate::system::SwitchPlace;
 const DULL: f64 = 0.1;
 
 /// What the jump of stairs did where they became a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Effect {
     /// In units of the tolerance.
     error: f64,

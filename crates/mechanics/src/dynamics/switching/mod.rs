@@ -22,6 +22,7 @@ mod location;
 mod switch;
 
 use numerics::bdf;
+use serde::{Deserialize, Serialize};
 
 use super::Dynamics;
 use crate::expression::{Branch, Sharing};
@@ -49,12 +50,12 @@ const FIRST_STEPS: usize = 3;
 const SHORT: f64 = 1e-3;
 
 /// A motion that stays where a function jumps.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sliding {
     /// The element that the function belongs to.
     pub element: Label,
     /// The name of the function that jumps, in the dataset language.
-    pub function: &'static str,
+    pub function: String,
     /// Time from which it was held first.
     pub time: f64,
     /// How near to the jump its argument is held, in the unit of the argument.
@@ -62,7 +63,7 @@ pub struct Sliding {
 }
 
 /// The switches of a model while it is integrated.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Switching {
     switches: Vec<Switch>,
     readings: Vec<Reading>,
@@ -136,6 +137,13 @@ impl Switching {
         self.starts_known = false;
         self.switches[k].branch = branch;
         system.set_branch(self.switches[k].place, branch);
+    }
+
+    /// Gives a system whose functions know of no branch those of the switches.
+    pub(super) fn hold_branches(&self, system: &mut System) {
+        for switch in &self.switches {
+            system.set_branch(switch.place, switch.branch);
+        }
     }
 
     /// The cell that switch `k` has left its own for, by what was read last.
@@ -226,12 +234,12 @@ impl Switching {
                     });
                     let sliding = Sliding {
                         element: system.switch_label(switch.place).clone(),
-                        function: system.switch_name(switch.place),
+                        function: system.switch_name(switch.place).to_owned(),
                         time,
                         width: switch.width,
                     };
                     let same = |s: &Sliding| {
-                        (&s.element, s.function) == (&sliding.element, sliding.function)
+                        (&s.element, &s.function) == (&sliding.element, &sliding.function)
                     };
                     if !self.slidings.iter().any(same) {
                         self.slidings.push(sliding);

@@ -3,12 +3,13 @@
 use super::effect::Effect;
 use crate::expression::Branch;
 use crate::system::{SwitchPlace, System};
+use serde::{Deserialize, Serialize};
 
 /// Share beyond 0 or 1 at which a switch may leave its jump.
 const LEAVING: f64 = 1e-5;
 
 /// A switch with what is known of it since the run began.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Switch {
     pub(super) place: SwitchPlace,
     /// Whether its argument depends on nothing but time.
