@@ -21,11 +21,17 @@ struct Arguments {
 enum Command {
     /// Measure the solver, beside its peers where they can be had.
     Bench(bench::Arguments),
+    /// Measure a chain of one size, for the table of growth.
+    #[command(hide = true)]
+    Grow(bench::growth::Arguments),
 }
 
 fn main() -> ExitCode {
-    let Command::Bench(arguments) = Arguments::parse().command;
-    match bench::run(&arguments) {
+    let outcome = match Arguments::parse().command {
+        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Grow(arguments) => bench::growth::measure(&arguments),
+    };
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             println!("{message}");

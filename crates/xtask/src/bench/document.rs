@@ -40,8 +40,8 @@ const fn target(case: &'static str, peer: &'static str, error: f64, least: f64) 
     }
 }
 
-/// The page; `versions` are those of the peers.
-pub(crate) fn page(measured: &[Measured], versions: Option<&str>) -> String {
+/// The page; `others` are the sections before the cases, `versions` those of the peers.
+pub(crate) fn page(measured: &[Measured], others: &str, versions: Option<&str>) -> String {
     let mut text = format!(
         "# Performance\n\nWritten by `cargo xtask bench`. {}\n\nPeers: {}. Times are medians of the \
          solver alone, of one thread: processor time of the thread for ours, of the process for the \
@@ -57,8 +57,10 @@ pub(crate) fn page(measured: &[Measured], versions: Option<&str>) -> String {
         text += &ratio(target, measured);
     }
     text += "\n";
+    text += others;
     for case in measured {
-        text += &section(case);
+        let picture = super::picture::file(case.case.name);
+        text += &section(case, &format!("![Error against time]({picture})\n\n"));
     }
     text
 }

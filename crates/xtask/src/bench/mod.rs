@@ -4,9 +4,13 @@ mod case;
 mod cases;
 mod clock;
 mod document;
+mod friction_cost;
+pub(crate) mod growth;
 mod integrators;
 mod matched;
 mod peers;
+mod picture;
+mod programs;
 mod tables;
 mod work_precision;
 
@@ -18,7 +22,7 @@ use work_precision::Measured;
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Cases by name; all of them write docs/performance.md.
+    /// Cases by name; without any, all are measured and docs/performance.md is written.
     cases: Vec<String>,
     /// Leave the peers out.
     #[arg(long)]
@@ -26,6 +30,9 @@ pub(crate) struct Arguments {
     /// Loose tolerances and one run each: shows that the command works.
     #[arg(long)]
     quick: bool,
+    /// Folder for the page and its pictures; docs where all cases are measured in full.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
 }
 
 /// Measures and prints the tables.
@@ -56,16 +63,35 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
             continue;
         }
         let measured = measure(entry, &root, environment.as_ref(), arguments.quick)?;
-        println!("{}", tables::section(&measured));
+        println!("{}", tables::section(&measured, ""));
         all.push(measured);
     }
-    if arguments.cases.is_empty() && !arguments.quick {
+    let mut others = String::new();
+    if arguments.cases.is_empty() {
+        others += &programs::section(&root, arguments.quick)?;
+        others += &friction_cost::section(&root, arguments.quick)?;
+        others += &growth::section(arguments.quick)?;
+        println!("{others}");
+    }
+    let complete = arguments.cases.is_empty() && !arguments.quick;
+    let output = arguments.output.clone();
+    if let Some(folder) = output.or(complete.then(|| root.join("docs"))) {
         let versions = environment.as_ref().map(|e| e.versions.as_str());
-        let path = root.join("docs/performance.md");
-        std::fs::write(&path, document::page(&all, versions))
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        write(&folder, &document::page(&all, &others, versions), &all)?;
     }
     Ok(())
+}
+
+/// Writes the page and its pictures.
+fn write(folder: &Path, page: &str, all: &[Measured]) -> Result<(), String> {
+    let pictures = folder.join("pictures");
+    std::fs::create_dir_all(&pictures)
+        .map_err(|error| format!("{}: {error}", pictures.display()))?;
+    for measured in all {
+        picture::draw(measured, &folder.join(picture::file(measured.case.name)))?;
+    }
+    let path = folder.join("performance.md");
+    std::fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 fn measure(

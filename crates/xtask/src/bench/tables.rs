@@ -8,15 +8,18 @@ use super::work_precision::{Measured, Row, Setting};
 /// The errors at which times are compared.
 pub(crate) const TARGETS: [f64; 3] = [1e-4, 1e-5, 1e-6];
 
-/// Section of a case: its description, all rows, and times at equal errors.
-pub(crate) fn section(measured: &Measured) -> String {
+/// Section of a case: its description, times at equal errors, a picture where there is one, and all
+/// rows.
+pub(crate) fn section(measured: &Measured, picture: &str) -> String {
     let case = &measured.case;
     let mut text = format!(
         "## {} (`{}`)\n\n{} Error: {}. Reference: {}.\n\n",
         case.title, case.name, case.description, case.quantity, measured.source
     );
     text += &at_equal_errors(measured);
-    text += "\n| integrator | ERROR or steps | error | CPU ms | wall ms | steps | rejected | failed | \
+    text += "\n";
+    text += picture;
+    text += "| integrator | ERROR or steps | error | CPU ms | wall ms | steps | rejected | failed | \
              factorisations | residuals |\n|---|---|---|---|---|---|---|---|---|---|\n";
     for row in &measured.rows {
         text += &line(row);

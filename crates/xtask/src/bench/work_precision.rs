@@ -34,6 +34,13 @@ pub(crate) struct Row {
     pub(crate) outcome: Result<Outcome, String>,
 }
 
+impl Row {
+    /// Whether one of our integrators ran it.
+    pub(crate) fn is_ours(&self) -> bool {
+        matches!(self.setting, Setting::Error(_))
+    }
+}
+
 /// Medians and results of a row.
 pub(crate) struct Outcome {
     /// Medians.
