@@ -39,7 +39,7 @@ mod switching;
 
 use std::ops::Range;
 
-use numerics::bdf::{self, Verdict, Within};
+use numerics::bdf::{self, Family, History, Verdict, Within};
 use numerics::linear::{FrontalLu, Matrix};
 use serde::{Deserialize, Serialize};
 
@@ -60,6 +60,13 @@ use switching::Switching;
 const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
 const SLOW_RATE: f64 = 0.1;
+
+/// Values of every multiplier that are kept.
+const MULTIPLIER_NODES: usize = Family::Adams.highest_order();
+/// Degree of the polynomial that predicts multipliers, at most, where constraints do not enter with their
+/// accelerations: a higher one magnifies what Newton's iteration leaves by more than the next iteration
+/// takes off.
+const MULTIPLIER_DEGREE: usize = 3;
 
 /// Steps that are solved as I3 once SI2 has failed, so that a nearly singular position is behind.
 const INDEX3_STEPS: usize = 10;
@@ -107,6 +114,8 @@ pub(crate) struct Dynamics {
     pub(crate) work: Work,
     /// Multipliers λ of the last solved step.
     pub(crate) multipliers: Vec<f64>,
+    /// The same of the last accepted steps, which those of the next one are predicted from.
+    past_multipliers: History,
     /// Friction memory before the last accepted step, for outputs within it.
     pub(crate) previous: Vec<Memory>,
     powers: Vec<f64>,
@@ -154,6 +163,7 @@ impl Dynamics {
             scales,
             work: Work::default(),
             multipliers: vec![0.0; multipliers],
+            past_multipliers: History::new(multipliers, MULTIPLIER_NODES),
             previous: system.history.frictions.clone(),
             powers: vec![0.0; system.work_count()],
             bristle_errors: vec![0.0; system.bristle_count()],
@@ -210,6 +220,12 @@ impl Dynamics {
     /// Begins the works anew at an instant.
     pub(crate) fn start_works(&mut self, time: f64, works: &[f64], powers: &[f64]) {
         self.quadrature.start(time, works, powers);
+    }
+
+    /// Takes over the multipliers of the instant that a run begins at.
+    pub(crate) fn start_multipliers(&mut self, time: f64, multipliers: &[f64]) {
+        self.multipliers.copy_from_slice(multipliers);
+        self.past_multipliers.start_without_slope(time, multipliers);
     }
 
     /// Takes over the rates of velocities and states of the instant that a run begins at.
@@ -290,15 +306,38 @@ impl Dynamics {
         self.switching.write_shares(&mut self.system, shares);
     }
 
-    fn load(&mut self, step: &bdf::Step<'_>, prediction: &[f64]) -> Result<(), Failure> {
+    /// First guess of the impulses: the polynomial through the multipliers of the last steps. What a
+    /// guess lacks is forces that a kept matrix, which has the directions of another position, leaves in
+    /// the velocities.
+    fn predict_impulses(&mut self, step: &bdf::Step<'_>, usage: MatrixUse) {
+        let known = self.past_multipliers.count() - 1;
+        let degree = match (usage, self.present) {
+            // Where reactions jump nothing is surer than the last ones.
+            (MatrixUse::RenewedAlways, _) => 0,
+            (_, Index::One) => step.order - 1,
+            (_, Index::StabilisedTwo | Index::Three) => MULTIPLIER_DEGREE.min(step.order - 1),
+        };
+        let degree = degree.min(known);
+        self.past_multipliers
+            .evaluate(degree, step.time, &mut self.impulses);
+        for impulse in &mut self.impulses {
+            *impulse *= step.gamma;
+        }
+    }
+
+    /// Loads the first guess of a step.
+    fn load(
+        &mut self,
+        step: &bdf::Step<'_>,
+        prediction: &[f64],
+        usage: MatrixUse,
+    ) -> Result<(), Failure> {
         self.state.time = step.time;
         self.state.values.copy_from_slice(prediction);
         let bristles = &step.history[self.state.bristle_range()];
         self.system.set_bristles(bristles, step.gamma);
         self.shift.fill(0.0);
-        for (impulse, multiplier) in self.impulses.iter_mut().zip(&self.multipliers) {
-            *impulse = step.gamma * multiplier;
-        }
+        self.predict_impulses(step, usage);
         self.state.normalize();
         match self.present {
             Index::One | Index::StabilisedTwo => self.positions_from_velocities(step),
@@ -329,7 +368,7 @@ impl bdf::System for Dynamics {
             self.formulation.index()
         };
         loop {
-            let solved = self.load(step, y);
+            let solved = self.load(step, y, usage);
             let Err(failure) = solved.and_then(|()| self.newton(step, usage)) else {
                 break;
             };
@@ -442,6 +481,7 @@ impl bdf::System for Dynamics {
         // The step solved last is the one accepted: everything is evaluated there.
         self.quadrature
             .accept(step.time, self.state.works(), &self.powers);
+        self.past_multipliers.push(step.time, &self.multipliers);
         if self.formulation.alpha() != 0.0 {
             // M u̇/(1 + α) = F + lag F₀ has been solved.
             self.system.mass_times(&self.rates, &mut self.momentum);

@@ -305,7 +305,7 @@ impl Simulation {
 
     /// Starts the integrator from the instant solved last.
     fn begin(&self, bdf: &mut Bdf, dynamics: &mut Dynamics, slope: &[f64], first: f64) {
-        dynamics.multipliers.copy_from_slice(&self.multipliers);
+        dynamics.start_multipliers(self.state.time, &self.multipliers);
         let powers = &slope[self.state.work_range()];
         dynamics.start_works(self.state.time, self.state.works(), powers);
         dynamics.start_rates(&self.accelerations);
