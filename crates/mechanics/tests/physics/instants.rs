@@ -123,35 +123,61 @@ fn point_mass_on_a_pin_meets_the_closed_form() {
     )]);
 }
 
-/// A block of 2 kg whose centre is `height` above its guide (friction 0.2, overlap 0.1 m), sliding
-/// at 1 m/s.
-fn high_block(height: f64, gravity: f64, push: f64) -> Simulation {
+/// Blocks of 2 kg whose centres are at `heights` above their guides (friction 0.2, overlap 0.1 m),
+/// sliding at 1 m/s.
+fn high_blocks(heights: &[f64], gravity: f64, push: f64) -> Simulation {
     let law = law(0.2, 0.2, 1e-4, 1e-6);
     let mut load = Block::new(law).load;
     load.initial_overlap = 0.1;
     let mut b = Builder::new(v(0.0, -gravity, 0.0));
-    let block = b.body(2.0, [0.1; 3], v(0.0, height, 0.0));
     let x = Vector3::x();
-    let joint = b.joint(
-        JointKind::Translational,
-        Some(block),
-        None,
-        v(0.0, 0.0, 0.0),
-        x,
-    );
-    b.friction(joint, law, FrictionJoint::Translational(load));
-    b.model.bodies[block].velocity = x;
-    b.model.bodies[block].given_velocity = [true; 6];
-    let markers = [Some(block), None].map(|on| b.marker(on, Vector3::zeros(), axes_with_z(x)));
-    b.force(
-        ForceKind::AlongZ,
-        markers[0],
-        markers[1],
-        Program::constant(push),
-    );
+    for &height in heights {
+        let block = b.body(2.0, [0.1; 3], v(0.0, height, 0.0));
+        let joint = b.joint(
+            JointKind::Translational,
+            Some(block),
+            None,
+            v(0.0, 0.0, 0.0),
+            x,
+        );
+        b.friction(joint, law, FrictionJoint::Translational(load));
+        b.model.bodies[block].velocity = x;
+        b.model.bodies[block].given_velocity = [true; 6];
+        let markers = [Some(block), None].map(|on| b.marker(on, Vector3::zeros(), axes_with_z(x)));
+        b.force(
+            ForceKind::AlongZ,
+            markers[0],
+            markers[1],
+            Program::constant(push),
+        );
+    }
     let mut simulation = Simulation::new(b.model, 1.0);
     simulation.assemble().expect("it assembles");
     simulation
+}
+
+fn high_block(height: f64, gravity: f64, push: f64) -> Simulation {
+    high_blocks(&[height], gravity, push)
+}
+
+/// Of many frictions the largest gain is estimated: the one that jams is found among a hundred.
+#[test]
+fn one_of_many_frictions_jams() {
+    let mut heights: Vec<f64> = (0..100)
+        .map(|k| 0.05 + 0.35 * f64::from(k) / 99.0)
+        .collect();
+    high_blocks(&heights, 9.80665, 0.0)
+        .solve_instant()
+        .expect("all gains are 0.8 or less");
+    heights[37] = 0.55;
+    let error = high_blocks(&heights, 9.80665, 0.0)
+        .solve_instant()
+        .expect_err("gain 1.1");
+    let message = error.to_string();
+    assert!(
+        message.contains("FRICTION/38 jams") && message.contains("adds 1.100 times"),
+        "{message}"
+    );
 }
 
 #[test]
