@@ -61,7 +61,7 @@ pub(crate) struct Evaluated {
     /// Rate that it prescribes for `G u`.
     pub(crate) rate: f64,
     /// Value that it prescribes for `G u̇`, for a pair without the part `Ġ u` of its markers: see
-    /// [`crate::system::System::prescribed_acceleration`].
+    /// [`crate::system::System::prescribe_accelerations`].
     pub(crate) unbiased_acceleration: f64,
     /// `G` by body, in the order of [`Constraint::bodies`].
     pub(crate) jacobian: Vec<[f64; 6]>,

@@ -234,10 +234,10 @@ impl Instant {
         for k in 0..n {
             self.right[k] = self.force[k] - self.momentum[k];
         }
-        for (row, &place) in system.rows.iter().enumerate() {
+        system.prescribe_accelerations(&mut self.right[n..]);
+        for (right, &place) in self.right[n..].iter_mut().zip(&system.rows) {
             let bodies = &system.constraints[place].bodies;
-            let rate = system.evaluated[place].rate_of(bodies, accelerations);
-            self.right[n + row] = system.prescribed_acceleration(place) - rate;
+            *right -= system.evaluated[place].rate_of(bodies, accelerations);
         }
         let first = n + system.row_count();
         system.algebraic_residual(multipliers, &mut self.right[first..]);

@@ -281,26 +281,33 @@ impl MarkerFrame {
     /// The frame of `marker` on bodies that stand as `bodies`.
     #[must_use]
     pub fn new(marker: &Marker, bodies: &[BodyFrame]) -> Self {
+        let mut new = Self {
+            body: None,
+            origin: Vector3::zeros(),
+            arm: Vector3::zeros(),
+            axes: Matrix3::zeros(),
+            velocity: Vector3::zeros(),
+            omega: Vector3::zeros(),
+        };
+        new.update(marker, bodies);
+        new
+    }
+
+    /// Brings it up to date with the bodies.
+    pub(crate) fn update(&mut self, marker: &Marker, bodies: &[BodyFrame]) {
+        self.body = marker.body;
         match marker.body {
-            None => Self {
-                body: None,
-                origin: marker.offset,
-                arm: Vector3::zeros(),
-                axes: marker.axes,
-                velocity: Vector3::zeros(),
-                omega: Vector3::zeros(),
-            },
+            None => {
+                self.origin = marker.offset;
+                self.axes = marker.axes;
+            }
             Some(place) => {
                 let body = &bodies[place];
-                let arm = body.rotation * marker.offset;
-                Self {
-                    body: Some(place),
-                    origin: body.centre + arm,
-                    arm,
-                    axes: body.rotation * marker.axes,
-                    velocity: body.velocity + body.omega.cross(&arm),
-                    omega: body.omega,
-                }
+                self.arm = body.rotation * marker.offset;
+                self.origin = body.centre + self.arm;
+                self.axes = body.rotation * marker.axes;
+                self.velocity = body.velocity + body.omega.cross(&self.arm);
+                self.omega = body.omega;
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::report::Unmet;
 use crate::constraint::{Evaluated, Form, name};
-use crate::equation::{Axis, Equation, Pair};
+use crate::equation::{Axis, Equation, Local, Pair};
 use crate::model::{Element, Label, Level, MotionFreedom};
 use crate::system::System;
 
@@ -114,7 +114,10 @@ impl System {
         }
         for start in starts {
             let (i, j) = (self.marker(start.i), self.marker(start.j));
-            let row = start.equation.evaluate(&Pair::new(&i, &j), &[]);
+            let mut jacobian = Local::zeros();
+            let value = start
+                .equation
+                .evaluate(&Pair::new(&i, &j), &[], &mut jacobian);
             let along = matches!(start.equation, Equation::Along(_));
             let (scale, quantity) = if along {
                 (1.0 / length, LENGTH)
@@ -124,11 +127,11 @@ impl System {
             let mut blocks = Vec::new();
             for (side, body) in [(0, i.body), (6, j.body)] {
                 if let Some(body) = body {
-                    let g = std::array::from_fn(|k| row.jacobian[side + k]);
+                    let g = std::array::from_fn(|k| jacobian[side + k]);
                     blocks.push((body, scaled(&g, scale, length)));
                 }
             }
-            let mut error = row.value - start.displacement.unwrap_or(row.value);
+            let mut error = value - start.displacement.unwrap_or(value);
             if !along {
                 error -= std::f64::consts::TAU * (error / std::f64::consts::TAU).round();
             }

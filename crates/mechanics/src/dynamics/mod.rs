@@ -59,7 +59,7 @@ use switching::Switching;
 /// A kept Newton matrix serves while γ stays within this part of its own.
 const GAMMA_RANGE: f64 = 0.25;
 /// A kept Newton matrix is renewed when the iteration got slower than this.
-const SLOW_RATE: f64 = 0.1;
+const SLOW_RATE: f64 = 0.07;
 
 /// Values of every multiplier that are kept.
 const MULTIPLIER_NODES: usize = Family::Adams.highest_order();
@@ -129,6 +129,8 @@ pub(crate) struct Dynamics {
     shift: Vec<f64>,
     impulses: Vec<f64>,
     trial: Vec<f64>,
+    /// What equations prescribe of accelerations, by row.
+    prescribed: Vec<f64>,
     change: Vec<f64>,
     force: Vec<f64>,
     /// Forces at the last accepted step, where HHT reads them.
@@ -142,6 +144,7 @@ pub(crate) struct Dynamics {
     factors: FrontalLu,
     /// γ of the factored matrix, none before the first.
     factored: Option<f64>,
+    /// Rate of convergence of the last iteration.
     rate: f64,
 }
 
@@ -174,6 +177,7 @@ impl Dynamics {
             shift: vec![0.0; moving],
             impulses: vec![0.0; multipliers],
             trial: vec![0.0; multipliers],
+            prescribed: vec![0.0; multipliers],
             change: vec![0.0; n],
             force: vec![0.0; n],
             past_force: vec![0.0; n],

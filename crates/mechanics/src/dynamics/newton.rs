@@ -40,13 +40,16 @@ impl Dynamics {
             let force = self.force[k] + lag * self.past_force[k];
             self.right[k] = gamma * force - inertia * self.momentum[k];
         }
+        if self.present == Index::One || self.system.prescribes_accelerations() {
+            self.system.prescribe_accelerations(&mut self.prescribed);
+        }
         for (row, &place) in self.system.rows.iter().enumerate() {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
             let of = |u: &[f64]| evaluated.rate_of(&constraint.bodies, u);
             self.right[n + row] = match (constraint.level, self.present) {
                 (Level::Acceleration, _) | (_, Index::One) => {
-                    gamma * self.system.prescribed_acceleration(place) - of(&self.change)
+                    gamma * self.prescribed[row] - of(&self.change)
                 }
                 (Level::Position, Index::Three) => -evaluated.error / step.position_gamma,
                 (Level::Position, Index::StabilisedTwo) | (Level::Velocity, _) => {
@@ -70,20 +73,17 @@ impl Dynamics {
 
     /// Size of a Newton correction in units of the error tolerance.
     pub(super) fn correction_norm(&self, gamma: f64) -> f64 {
-        let n = self.system.velocity_count();
-        let (length, rate) = (self.scales.length, self.scales.rate);
-        let mut norm = 0.0_f64;
-        for k in 0..n {
-            let unit = if k % 6 < 3 { length } else { 1.0 };
-            norm = norm.max((gamma * self.right[k]).abs() / unit);
-            if self.present != Index::Three {
-                norm = norm.max(self.right[k].abs() / (unit * rate));
-            }
-            if self.present == Index::StabilisedTwo {
-                norm = norm.max(self.position_right[k].abs() / unit);
-            }
+        let moving = self.system.velocity_count();
+        let motions = self.scales.largest(&self.right[..moving]);
+        let mut norm = gamma * motions;
+        if self.present != Index::Three {
+            norm = norm.max(motions / self.scales.rate);
         }
-        for (scale, change) in self.state_scales.iter().zip(&self.right[n..]) {
+        if self.present == Index::StabilisedTwo {
+            norm = norm.max(self.scales.largest(&self.position_right[..moving]));
+        }
+        let changes = &self.right[moving..self.system.rate_count()];
+        for (scale, change) in self.state_scales.iter().zip(changes) {
             norm = norm.max(change.abs() / scale);
         }
         norm / self.tolerance
@@ -99,7 +99,7 @@ impl Dynamics {
             Index::StabilisedTwo => Rows::Velocity,
             Index::Three => Rows::Position,
         };
-        let (mut last, mut worst, mut growths) = (0.0, 0, 0);
+        let (mut first, mut last, mut growths) = (0.0, 0.0, 0);
         let iterations = match usage {
             MatrixUse::RenewedAlways => self.newton_iterations.max(FULL_ITERATIONS),
             _ => self.newton_iterations,
@@ -163,10 +163,6 @@ impl Dynamics {
                 *state += change;
             }
             let norm = self.correction_norm(step.position_gamma);
-            let size = |k: &usize| self.right[*k].abs();
-            worst = (0..n)
-                .max_by(|a, b| size(a).total_cmp(&size(b)))
-                .unwrap_or(0);
             if !norm.is_finite() {
                 break;
             }
@@ -186,11 +182,19 @@ impl Dynamics {
                     }
                 }
                 if norm * self.rate.min(0.9) / (1.0 - self.rate.min(0.9)) <= tolerance {
+                    // That of all iterations says whether the matrix is worth keeping.
+                    self.rate = (norm / first).powf(1.0 / iteration as f64);
                     return Ok(());
                 }
+            } else {
+                first = norm;
             }
             last = norm;
         }
-        Err(Failure::NotConverged { unknown: worst })
+        let size = |k: &usize| self.right[*k].abs();
+        let worst = (0..n).max_by(|a, b| size(a).total_cmp(&size(b)));
+        Err(Failure::NotConverged {
+            unknown: worst.unwrap_or(0),
+        })
     }
 }

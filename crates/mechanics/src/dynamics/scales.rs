@@ -35,6 +35,20 @@ impl Scales {
         }
     }
 
+    /// The largest of the motions of bodies, six numbers each, in units of the typical length and of
+    /// radians.
+    pub(super) fn largest(&self, motions: &[f64]) -> f64 {
+        let [mut moved, mut turned] = [[0.0_f64; 3]; 2];
+        for motion in motions.as_chunks::<6>().0 {
+            for k in 0..3 {
+                moved[k] = larger(moved[k], motion[k].abs());
+                turned[k] = larger(turned[k], motion[3 + k].abs());
+            }
+        }
+        let largest = |of: [f64; 3]| larger(larger(of[0], of[1]), of[2]);
+        larger(largest(moved) / self.length, largest(turned))
+    }
+
     /// Magnitudes below which the differential states of `state` count as small until `end`.
     pub(super) fn small_states(&self, system: &mut System, state: &State, end: f64) -> Vec<f64> {
         let values: Vec<f64> = state.states().iter().map(|y| y.abs()).collect();
@@ -62,6 +76,11 @@ impl Scales {
         };
         rates.into_iter().zip(&values).map(small).collect()
     }
+}
+
+/// The larger of two numbers, by one instruction.
+fn larger(most: f64, value: f64) -> f64 {
+    if value > most { value } else { most }
 }
 
 /// Raises scales to the magnitudes of values.

@@ -84,6 +84,13 @@ fn differences(f: impl Fn(&Local) -> Local) -> LocalMatrix {
     slopes
 }
 
+/// Value and Jacobian.
+fn evaluated(equation: Equation, pair: &Pair<'_>, curves: &[Curve]) -> (f64, Local) {
+    let mut jacobian = Local::zeros();
+    let value = equation.evaluate(pair, curves, &mut jacobian);
+    (value, jacobian)
+}
+
 #[test]
 fn jacobian_and_stiffness_match_differences() {
     let [i, j] = frames(&Local::zeros());
@@ -91,16 +98,16 @@ fn jacobian_and_stiffness_match_differences() {
     for equation in ALL {
         let value = |x: &Local| {
             let [i, j] = frames(x);
-            Local::repeat(equation.evaluate(&Pair::new(&i, &j), &curves).value)
+            Local::repeat(evaluated(equation, &Pair::new(&i, &j), &curves).0)
         };
         let jacobian = differences(value).row(0).transpose();
         assert!(
-            (jacobian - equation.evaluate(&Pair::new(&i, &j), &curves).jacobian).norm() < 1e-8,
+            (jacobian - evaluated(equation, &Pair::new(&i, &j), &curves).1).norm() < 1e-8,
             "{equation:?}"
         );
         let gradient = |x: &Local| {
             let [i, j] = frames(x);
-            equation.evaluate(&Pair::new(&i, &j), &curves).jacobian
+            evaluated(equation, &Pair::new(&i, &j), &curves).1
         };
         let stiffness = differences(gradient);
         let pair = Pair::new(&i, &j);
@@ -126,11 +133,11 @@ fn the_angles_about_two_pins_make_the_relative_rotation() {
         i.omega = j.omega + rates[0] * i.axis(p) + rates[1] * j.axis(q);
         for ((pin, rate), axis) in pins.into_iter().zip(rates).zip([i.axis(p), j.axis(q)]) {
             let pair = Pair::new(&i, &j);
-            let row = Equation::About(Axis::Pin(pin)).evaluate(&pair, &[]);
-            let found = row.jacobian.dot(&pair.velocities());
+            let (_, jacobian) = evaluated(Equation::About(Axis::Pin(pin)), &pair, &[]);
+            let found = jacobian.dot(&pair.velocities());
             assert!((found - rate).abs() < 1e-14, "{pin:?} {found} {rate}");
             // A torque about the pin acts on I along it, and the opposite on J.
-            let torque = row.jacobian.fixed_rows::<3>(3);
+            let torque = jacobian.fixed_rows::<3>(3);
             assert!((torque - axis).norm() < 1e-14, "{pin:?}");
         }
     }

@@ -175,15 +175,6 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// An equation at an instant.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Row {
-    /// `g`.
-    pub(crate) value: f64,
-    /// `∂g` by the local motions: the constraint Jacobian `G`.
-    pub(crate) jacobian: Local,
-}
-
 #[inline]
 fn parts(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>, d: &Vector3<f64>) -> Local {
     Local::from_array_storage(ArrayStorage([[
@@ -192,18 +183,20 @@ fn parts(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>, d: &Vector3<f64>)
 }
 
 impl Equation {
-    /// Value and Jacobian; `curves` are those of the model.
-    pub(crate) fn evaluate(self, pair: &Pair<'_>, curves: &[Curve]) -> Row {
+    /// Value; writes the Jacobian by the local motions, `G`. `curves` are those of the model.
+    pub(crate) fn evaluate(self, pair: &Pair<'_>, curves: &[Curve], jacobian: &mut Local) -> f64 {
         match self {
-            Self::Along(k) => along(pair, k),
-            Self::Axes(k, l) => Angular::axes(pair, k, l).row(),
-            Self::About(axis) => Angle::new(pair, axis).row(),
+            Self::Along(k) => along(pair, k, jacobian),
+            Self::Axes(k, l) => Angular::axes(pair, k, l).write(jacobian),
+            Self::About(axis) => Angle::new(pair, axis).angular().write(jacobian),
             Self::Thread {
                 about,
                 pitch,
                 start,
-            } => thread(pair, about, pitch, start),
-            Self::OnCurve { curve, component } => on_curve(pair, &curves[curve], component),
+            } => thread(pair, about, [pitch, start], jacobian),
+            Self::OnCurve { curve, component } => {
+                on_curve(pair, &curves[curve], component, jacobian)
+            }
             Self::EvenTurns { away } => {
                 let sign = if away { 1.0 } else { -1.0 };
                 let (x, y) = (Angular::axes(pair, 0, 1), Angular::axes(pair, 1, 0));
@@ -211,9 +204,14 @@ impl Equation {
                     value: x.value + sign * y.value,
                     moment: x.moment + sign * y.moment,
                 }
-                .row()
+                .write(jacobian)
             }
         }
+    }
+
+    /// Value alone.
+    pub(crate) fn value(self, pair: &Pair<'_>, curves: &[Curve]) -> f64 {
+        self.evaluate(pair, curves, &mut Local::zeros())
     }
 
     /// `g̈` where all accelerations are zero: `Ġ u`.
@@ -242,12 +240,10 @@ impl Equation {
     }
 }
 
-fn along(pair: &Pair<'_>, k: usize) -> Row {
+fn along(pair: &Pair<'_>, k: usize, jacobian: &mut Local) -> f64 {
     let a = pair.j.axis(k);
-    Row {
-        value: pair.between.dot(&a),
-        jacobian: parts(&a, &pair.i.arm.cross(&a), &-a, &-pair.reach.cross(&a)),
-    }
+    *jacobian = parts(&a, &pair.i.arm.cross(&a), &-a, &-pair.reach.cross(&a));
+    pair.between.dot(&a)
 }
 
 fn along_bias(pair: &Pair<'_>, k: usize) -> f64 {
@@ -275,12 +271,11 @@ impl Angular {
         }
     }
 
-    fn row(&self) -> Row {
+    /// Writes its Jacobian; returns the value.
+    fn write(&self, jacobian: &mut Local) -> f64 {
         let zero = Vector3::zeros();
-        Row {
-            value: self.value,
-            jacobian: parts(&zero, &self.moment, &zero, &-self.moment),
-        }
+        *jacobian = parts(&zero, &self.moment, &zero, &-self.moment);
+        self.value
     }
 }
 
@@ -313,14 +308,13 @@ impl Angle {
         }
     }
 
-    fn row(&self) -> Row {
+    fn angular(&self) -> Angular {
         let (sine, cosine) = (&self.sine, &self.cosine);
         let moment = (cosine.value * sine.moment - sine.value * cosine.moment) / self.r2;
         Angular {
             value: self.sign * sine.value.atan2(cosine.value),
             moment: self.sign * moment,
         }
-        .row()
     }
 
     fn bias(&self, pair: &Pair<'_>, axis: Axis) -> f64 {
@@ -337,15 +331,14 @@ impl Angle {
     }
 }
 
-fn thread(pair: &Pair<'_>, axis: Axis, pitch: f64, start: f64) -> Row {
-    let (along, about) = (along(pair, 2), Angle::new(pair, axis).row());
+fn thread(pair: &Pair<'_>, axis: Axis, [pitch, start]: [f64; 2], jacobian: &mut Local) -> f64 {
     let factor = pitch / TAU;
-    let value = along.value - start - factor * about.value;
-    Row {
-        // After a whole turn the thread is the same: the turns need not be counted.
-        value: value - pitch * (value / pitch).round(),
-        jacobian: along.jacobian - factor * about.jacobian,
-    }
+    let mut turned = Local::zeros();
+    let about = Angle::new(pair, axis).angular().write(&mut turned);
+    let value = along(pair, 2, jacobian) - start - factor * about;
+    *jacobian -= factor * turned;
+    // After a whole turn the thread is the same: the turns need not be counted.
+    value - pitch * (value / pitch).round()
 }
 
 /// The origin of I along the axes of J.
@@ -353,16 +346,15 @@ fn position(pair: &Pair<'_>) -> Vector3<f64> {
     pair.j.axes.tr_mul(&pair.between)
 }
 
-fn on_curve(pair: &Pair<'_>, curve: &Curve, component: usize) -> Row {
+fn on_curve(pair: &Pair<'_>, curve: &Curve, component: usize, jacobian: &mut Local) -> f64 {
     let across = curve.across(&position(pair))[component];
-    let mut row = Row {
-        value: across.value,
-        jacobian: Local::zeros(),
-    };
+    let mut moved = Local::zeros();
+    jacobian.fill(0.0);
     for (k, slope) in across.gradient.iter().enumerate() {
-        row.jacobian += *slope * along(pair, k).jacobian;
+        along(pair, k, &mut moved);
+        *jacobian += *slope * moved;
     }
-    row
+    across.value
 }
 
 fn on_curve_bias(pair: &Pair<'_>, curve: &Curve, component: usize) -> f64 {

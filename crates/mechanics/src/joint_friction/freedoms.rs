@@ -142,11 +142,10 @@ fn evaluate<const N: usize>(
     let (mut velocity, mut creep) = ([0.0; N], [0.0; N]);
     let mut rows = [Local::zeros(); N];
     for k in 0..N {
-        let row = equations[k].evaluate(&pair, &[]);
-        rows[k] = row.jacobian;
-        velocity[k] = arms[k] * row.jacobian.dot(&u);
+        let value = equations[k].evaluate(&pair, &[], &mut rows[k]);
+        velocity[k] = arms[k] * rows[k].dot(&u);
         if sticks {
-            creep[k] = memory.creep[k] + arms[k] * memory.change(equations[k], k, row.value);
+            creep[k] = memory.creep[k] + arms[k] * memory.change(equations[k], k, value);
         }
     }
     let r = respond(

@@ -73,7 +73,7 @@ impl Memory {
     pub(crate) fn at(friction: &Friction, time: f64, i: &MarkerFrame, j: &MarkerFrame) -> Self {
         let mut displacement = [0.0; 2];
         for (value, equation) in displacement.iter_mut().zip(freedoms(&friction.load)) {
-            *value = equation.evaluate(&Pair::new(i, j), &[]).value;
+            *value = equation.value(&Pair::new(i, j), &[]);
         }
         let velocity = surface_velocity(friction, i, j);
         let moves = friction.law.regime(norm(&velocity)) != Regime::Stuck;
@@ -83,7 +83,7 @@ impl Memory {
             displacement,
             rotation: j.axes.transpose() * i.axes,
             anchor: j.axes.transpose() * i.axes,
-            initial_displacement: Equation::Along(2).evaluate(&Pair::new(i, j), &[]).value,
+            initial_displacement: Equation::Along(2).value(&Pair::new(i, j), &[]),
             velocity,
             deflection: [0.0; 3],
             largest_load: 0.0,
@@ -117,7 +117,7 @@ impl Memory {
         }
         let mut slip = [0.0; 3];
         for (k, equation) in equations.iter().enumerate() {
-            let value = equation.evaluate(&Pair::new(i, j), &[]).value;
+            let value = equation.value(&Pair::new(i, j), &[]);
             slip[k] = equation.arm(arm) * self.change(*equation, k, value);
         }
         slip
@@ -172,7 +172,7 @@ impl Memory {
         self.rotation = j.axes.transpose() * i.axes;
         self.velocity = velocity;
         for (k, equation) in freedoms(&friction.load).iter().enumerate() {
-            let value = equation.evaluate(&Pair::new(i, j), &[]).value;
+            let value = equation.value(&Pair::new(i, j), &[]);
             self.displacement[k] += self.change(*equation, k, value);
         }
     }

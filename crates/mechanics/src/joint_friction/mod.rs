@@ -180,8 +180,9 @@ fn load_at(
     moment: [f64; 3],
 ) -> LoadAt {
     let displaced = || {
-        let row = Equation::Along(2).evaluate(&Pair::new(i, j), &[]);
-        (row.value - memory.initial_displacement, row.jacobian)
+        let mut jacobian = Local::zeros();
+        let value = Equation::Along(2).evaluate(&Pair::new(i, j), &[], &mut jacobian);
+        (value - memory.initial_displacement, jacobian)
     };
     match &friction.load {
         FrictionJoint::Translational(load) => {
@@ -270,8 +271,10 @@ fn surface_velocity(friction: &Friction, i: &MarkerFrame, j: &MarkerFrame) -> [f
     let pair = Pair::new(i, j);
     let u = pair.velocities();
     let mut velocity = [0.0; 3];
+    let mut jacobian = Local::zeros();
     for (component, equation) in velocity.iter_mut().zip(equations) {
-        *component = equation.arm(arm) * equation.evaluate(&pair, &[]).jacobian.dot(&u);
+        equation.evaluate(&pair, &[], &mut jacobian);
+        *component = equation.arm(arm) * jacobian.dot(&u);
     }
     velocity
 }

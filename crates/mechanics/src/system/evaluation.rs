@@ -1,7 +1,7 @@
 //! What depends on time and state alone: frames, measures, constraint equations.
 
 use super::System;
-use crate::constraint::{Constraint, Evaluated, Form, Owner};
+use crate::constraint::{Constraint, Evaluated, Owner};
 use crate::expression::Input;
 use crate::measure::{self, Order, Quantity};
 use crate::model::Level;
@@ -40,14 +40,14 @@ impl System {
                 self.inputs.measures[place] = self.measure_value(place);
             }
         }
-        if derivatives || self.constraints.iter().any(|c| c.form == Form::Function) {
+        if derivatives || !self.functions.is_empty() {
             self.evaluate_slopes();
         }
         for group in 0..self.pairs.len() {
             self.evaluate_pairs(group);
         }
-        for place in 0..self.constraints.len() {
-            self.evaluate_function(place);
+        for k in 0..self.functions.len() {
+            self.evaluate_function(self.functions[k]);
         }
     }
 

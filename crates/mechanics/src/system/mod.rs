@@ -83,6 +83,9 @@ pub struct System {
     pub(crate) constraints: Vec<Constraint>,
     #[serde(skip)]
     pairs: Vec<PairGroup>,
+    /// Constraints that are functions of the model.
+    #[serde(skip)]
+    functions: Vec<usize>,
     /// Constraint of each row in force.
     pub(crate) rows: Vec<usize>,
     /// Contributions to the reaction of each friction's joint.
@@ -167,8 +170,11 @@ impl System {
             frictions: Vec::new(),
             angles: vec![0.0; model.measures.len()],
         };
+        let bodies = vec![BodyFrame::at_rest(); model.bodies.len()];
+        let of_functions = |place: &usize| constraints[*place].form == Form::Function;
+        let functions = (0..constraints.len()).filter(of_functions).collect();
         let mut system = Self {
-            bodies: vec![BodyFrame::at_rest(); model.bodies.len()],
+            bodies: bodies.clone(),
             inputs: Inputs {
                 time: 0.0,
                 measures: vec![0.0; model.measures.len()],
@@ -184,7 +190,8 @@ impl System {
             measure_bodies,
             needed,
             rows: Vec::new(),
-            pairs: pairs::groups(&constraints),
+            pairs: pairs::groups(&constraints, &model.markers, &bodies),
+            functions,
             reactions,
             bristles: vec![BristlePast::default(); model.frictions.len()],
             statics: false,
@@ -214,6 +221,7 @@ impl System {
             model,
             mut constraints,
             pairs,
+            functions,
             reactions,
             acting,
             needed,
@@ -230,7 +238,7 @@ impl System {
             constraints[place].row = Some(row);
         }
         (self.model, self.constraints, self.pairs) = (model, constraints, pairs);
-        self.reactions = reactions;
+        (self.functions, self.reactions) = (functions, reactions);
         (self.acting, self.needed, self.measure_bodies) = (acting, needed, measure_bodies);
         (self.registers, self.adjoints, self.jets) = (registers, adjoints, jets);
     }

@@ -5,21 +5,28 @@ use numerics::linear::Matrix;
 
 use super::evaluation::nearest_turn;
 use super::{Rows, System, Weights};
-use crate::constraint::{Constraint, Form, Owner};
-use crate::equation::{Axis, Equation, Local, Pair, Row, Stiffness};
+use crate::constraint::{Constraint, Evaluated, Form, Owner};
+use crate::equation::{Axis, Equation, Local, Pair, Stiffness};
 use crate::expression::Input;
-use crate::model::Level;
+use crate::model::{Level, Marker};
 use crate::scalar::Jet;
+use crate::state::{BodyFrame, MarkerFrame};
 
 /// Constraint equations that follow one another in the list and are between the same two markers.
 #[derive(Clone, Debug)]
 pub(super) struct PairGroup {
     markers: [usize; 2],
     constraints: std::ops::Range<usize>,
+    /// The markers on the bodies as they were evaluated last.
+    frames: [MarkerFrame; 2],
 }
 
-/// The groups of a list of constraints.
-pub(super) fn groups(constraints: &[Constraint]) -> Vec<PairGroup> {
+/// The groups of a list of constraints, on bodies that are yet to be evaluated.
+pub(super) fn groups(
+    constraints: &[Constraint],
+    markers: &[Marker],
+    bodies: &[BodyFrame],
+) -> Vec<PairGroup> {
     let mut groups: Vec<PairGroup> = Vec::new();
     for (place, constraint) in constraints.iter().enumerate() {
         let Form::Pair { i, j, .. } = constraint.form else {
@@ -30,6 +37,7 @@ pub(super) fn groups(constraints: &[Constraint]) -> Vec<PairGroup> {
             _ => groups.push(PairGroup {
                 markers: [i, j],
                 constraints: place..place + 1,
+                frames: [i, j].map(|marker| MarkerFrame::new(&markers[marker], bodies)),
             }),
         }
     }
@@ -42,18 +50,21 @@ impl System {
         let PairGroup {
             markers,
             constraints,
-        } = self.pairs[group].clone();
-        let [i, j] = markers.map(|marker| self.marker(marker));
-        let pair = Pair::new(&i, &j);
-        let sides = [i.body, j.body];
+            frames,
+        } = &mut self.pairs[group];
+        for (frame, &marker) in frames.iter_mut().zip(&*markers) {
+            frame.update(&self.model.markers[marker], &self.bodies);
+        }
+        let pair = Pair::new(&frames[0], &frames[1]);
+        let sides = [pair.i.body, pair.j.body];
         let turns = sides.map(|body| body.is_none_or(|body| self.model.bodies[body].rotates));
-        for place in constraints {
-            let Form::Pair { equation, .. } = self.constraints[place].form else {
+        for place in constraints.clone() {
+            let constraint = &self.constraints[place];
+            let Form::Pair { equation, .. } = constraint.form else {
                 continue;
             };
-            let row = equation.evaluate(&pair, &self.model.curves);
-            self.take_pair(place, equation, &row);
             let evaluated = &mut self.evaluated[place];
+            let value = equation.evaluate(&pair, &self.model.curves, &mut evaluated.local);
             for (side, turns) in turns.into_iter().enumerate() {
                 if !turns {
                     // A point mass does not turn: its rotations take no part.
@@ -66,17 +77,12 @@ impl System {
             for (into, (block, _)) in evaluated.jacobian.iter_mut().zip(present) {
                 *into = *block;
             }
-        }
-    }
-
-    /// Error and prescribed rates of an equation, with the function of the motion that it is of.
-    fn take_pair(&mut self, place: usize, equation: Equation, row: &Row) {
-        let constraint = &self.constraints[place];
-        let (mut value, mut rate, mut acceleration) = (row.value, 0.0, 0.0);
-        if let Owner::Motion(motion) = constraint.owner {
-            let drive = self.model.motions[motion]
-                .function
-                .run(&mut self.jets, |input| {
+            evaluated.error = value;
+            evaluated.rate = 0.0;
+            evaluated.unbiased_acceleration = 0.0;
+            if let Owner::Motion(motion) = constraint.owner {
+                let function = &self.model.motions[motion].function;
+                let drive = function.run(&mut self.jets, |input| {
                     debug_assert_eq!(input, Input::Time, "motions depend on time only");
                     Jet {
                         value: self.inputs.time,
@@ -84,42 +90,36 @@ impl System {
                         acceleration: 0.0,
                     }
                 });
-            match constraint.level {
-                Level::Position => {
-                    value -= drive.value;
-                    if equation == Equation::About(Axis::Z) {
-                        value = nearest_turn(value, 0.0);
-                    }
-                    rate = drive.rate;
-                    acceleration = drive.acceleration;
-                }
-                Level::Velocity => {
-                    value = 0.0;
-                    rate = drive.value;
-                    acceleration = drive.rate;
-                }
-                Level::Acceleration => {
-                    value = 0.0;
-                    acceleration = drive.value;
-                }
+                evaluated.drive(&drive, constraint.level, equation);
             }
         }
-        let evaluated = &mut self.evaluated[place];
-        evaluated.error = value;
-        evaluated.rate = rate;
-        evaluated.unbiased_acceleration = acceleration;
-        evaluated.local = row.jacobian;
     }
 
-    /// Value that a constraint equation prescribes for `G u̇` at the instant evaluated last.
-    pub(crate) fn prescribed_acceleration(&self, place: usize) -> f64 {
-        let unbiased = self.evaluated[place].unbiased_acceleration;
-        match self.constraints[place].form {
-            Form::Pair { equation, i, j } => {
-                let (i, j) = (self.marker(i), self.marker(j));
-                unbiased - equation.bias(&Pair::new(&i, &j), &self.model.curves)
+    /// Whether an equation prescribes accelerations, and nothing else.
+    pub(crate) fn prescribes_accelerations(&self) -> bool {
+        let mut motions = self.model.motions.iter();
+        motions.any(|motion| motion.level == Level::Acceleration)
+    }
+
+    /// Writes, for every row, the value that its equation prescribes for `G u̇` at the instant evaluated
+    /// last.
+    pub(crate) fn prescribe_accelerations(&self, prescribed: &mut [f64]) {
+        for (prescribed, &place) in prescribed.iter_mut().zip(&self.rows) {
+            *prescribed = self.evaluated[place].unbiased_acceleration;
+        }
+        for PairGroup {
+            constraints,
+            frames: [i, j],
+            ..
+        } in &self.pairs
+        {
+            let pair = Pair::new(i, j);
+            for constraint in &self.constraints[constraints.clone()] {
+                if let (Form::Pair { equation, .. }, Some(row)) = (constraint.form, constraint.row)
+                {
+                    prescribed[row] -= equation.bias(&pair, &self.model.curves);
+                }
             }
-            Form::Function => unbiased,
         }
     }
 
@@ -132,12 +132,12 @@ impl System {
         matrix: &mut Matrix,
     ) {
         for PairGroup {
-            markers,
             constraints,
+            frames: [i, j],
+            ..
         } in &self.pairs
         {
-            let [i, j] = markers.map(|marker| self.marker(marker));
-            let pair = Pair::new(&i, &j);
+            let pair = Pair::new(i, j);
             let mut stiffness = Stiffness::none();
             let mut reach = None;
             for place in constraints.clone() {
@@ -197,6 +197,31 @@ impl System {
             (Level::Position, Rows::Position) | (Level::Acceleration, _) => 0.0,
             (Level::Velocity, Rows::Position) | (_, Rows::Velocity) => 1.0,
             (_, Rows::Acceleration) => 2.0,
+        }
+    }
+}
+
+impl Evaluated {
+    /// Takes the function of a motion off the value of its equation, or prescribes what it says.
+    fn drive(&mut self, drive: &Jet, level: Level, equation: Equation) {
+        match level {
+            Level::Position => {
+                self.error -= drive.value;
+                if equation == Equation::About(Axis::Z) {
+                    self.error = nearest_turn(self.error, 0.0);
+                }
+                self.rate = drive.rate;
+                self.unbiased_acceleration = drive.acceleration;
+            }
+            Level::Velocity => {
+                self.error = 0.0;
+                self.rate = drive.value;
+                self.unbiased_acceleration = drive.rate;
+            }
+            Level::Acceleration => {
+                self.error = 0.0;
+                self.unbiased_acceleration = drive.value;
+            }
         }
     }
 }
