@@ -35,8 +35,9 @@ const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_6;
 const EXACT_WEIGHT: f64 = 1e10;
 /// Corrections of the initial velocities, at most.
 const VELOCITY_PASSES: usize = 6;
-/// Weight of velocities that were given, against one for the others.
-const GIVEN_WEIGHT: f64 = 1e6;
+/// Weight of velocities that nobody gave, against one for those given: beside a weight above one the
+/// number on the diagonal of the multipliers would count for as much more.
+const FREE_WEIGHT: f64 = 1e-6;
 /// Where steps no longer lessen the error, that number grows up to this.
 const LARGEST_REGULARISATION: f64 = 1.0;
 
@@ -167,7 +168,7 @@ impl System {
             .iter()
             .flat_map(|body| body.given_velocity);
         weights
-            .map(|given| if given { GIVEN_WEIGHT } else { 1.0 })
+            .map(|given| if given { 1.0 } else { FREE_WEIGHT })
             .collect()
     }
 
