@@ -121,6 +121,8 @@ pub(crate) struct Dynamics {
     powers: Vec<f64>,
     /// Errors of the bristle deflections that a step may make.
     bristle_errors: Vec<f64>,
+    /// What Newton's iteration leaves of velocities, in units of the error of positions.
+    left_of_velocities: f64,
     quadrature: Quadrature,
     switching: Switching,
     /// Largest magnitude of each differential state so far.
@@ -170,6 +172,7 @@ impl Dynamics {
             previous: system.history.frictions.clone(),
             powers: vec![0.0; system.work_count()],
             bristle_errors: vec![0.0; system.bristle_count()],
+            left_of_velocities: 0.0,
             quadrature: Quadrature::new(system.work_count()),
             switching: Switching::default(),
             state,
@@ -286,9 +289,11 @@ impl Dynamics {
         let deflections = &mut self.state.values[range];
         self.system
             .write_bristles(&self.multipliers, Some(deflections), None);
+        let rough = self.left_of_reactions(step);
         self.system.write_bristle_errors(
             &self.multipliers,
             self.tolerance,
+            rough,
             &mut self.bristle_errors,
         );
         self.system
@@ -358,6 +363,7 @@ impl bdf::System for Dynamics {
 
     fn solve(&mut self, step: &bdf::Step<'_>, y: &mut [f64]) -> Result<(), Failure> {
         self.switching.attempt(step.size, self.steps[1]);
+        self.left_of_velocities = self.left_of_velocities(step);
         let stale = self
             .factored
             .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
@@ -424,15 +430,11 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        if self.present != Index::Three {
+        if self.present != Index::Three || self.formulation.tests_velocities() {
             let velocities = POSITIONS * bodies..self.state.motions();
             for (k, d) in difference[velocities].iter().enumerate() {
-                let unit = if k % VELOCITIES < 3 {
-                    length * rate
-                } else {
-                    rate
-                };
-                norm = norm.max(d.abs() / unit);
+                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
+                norm = norm.max(d.abs() / (unit * (rate + self.left_of_velocities)));
             }
         }
         let states = &difference[self.state.state_range()];

@@ -14,6 +14,8 @@ const NEWTON_TOLERANCE: f64 = 0.05;
 const INDEX3_NEWTON_TOLERANCE: f64 = 0.002;
 /// The same for the formulas of Newmark, whose velocities keep what is left, divided by the step.
 const NEWMARK_NEWTON_TOLERANCE: f64 = 2e-5;
+/// By how much error tests of what follows from positions stay above what the iteration leaves of it.
+const MARGIN: f64 = 10.0;
 /// The same for the formulas of Adams, whose high differences of slopes magnify what is left.
 const ADAMS_NEWTON_TOLERANCE: f64 = 0.005;
 /// Iterations with a matrix each, at least.
@@ -87,6 +89,29 @@ impl Dynamics {
             norm = norm.max(change.abs() / scale);
         }
         norm / self.tolerance
+    }
+
+    /// What the iteration leaves of velocities that follow from positions, in units of the error of
+    /// positions: an error test that looks closer asks for shorter steps, which leave more.
+    pub(super) fn left_of_velocities(&self, step: &bdf::Step<'_>) -> f64 {
+        if self.formulation.tests_velocities() {
+            MARGIN * NEWMARK_NEWTON_TOLERANCE / step.size
+        } else {
+            0.0
+        }
+    }
+
+    /// What the iteration leaves of reactions that follow from positions, as a part of the inertia forces
+    /// at the largest rate: what is left of positions, divided by the square of the step. An error test
+    /// that looks closer at what follows reactions asks for shorter steps, which leave more.
+    pub(super) fn left_of_reactions(&self, step: &bdf::Step<'_>) -> f64 {
+        match self.formulation.index() {
+            Index::One | Index::StabilisedTwo => 0.0,
+            Index::Three => {
+                let left = MARGIN * INDEX3_NEWTON_TOLERANCE * self.tolerance;
+                left / (step.size * self.scales.rate).powi(2)
+            }
+        }
     }
 
     /// Newton's iteration from the loaded state, with the matrix used as `usage` says.

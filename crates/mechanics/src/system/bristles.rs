@@ -69,11 +69,13 @@ impl System {
 
     /// Writes the largest error of the deflections that a step may make at the instant evaluated last,
     /// for the error `tolerance`: a part of the deflection of the largest load, the larger the less of
-    /// its past a step takes over.
+    /// its past a step takes over. `rough` is the part of the largest load below which nothing is known
+    /// of reactions, and so of deflections.
     pub(crate) fn write_bristle_errors(
         &self,
         multipliers: &[f64],
         tolerance: f64,
+        rough: f64,
         errors: &mut [f64],
     ) {
         let mut first = 0;
@@ -83,11 +85,10 @@ impl System {
                 let values = self.friction(place, multipliers).0.values;
                 let load = friction.surface_load(&values.load);
                 let level = law.mu_static * load.max(self.history.frictions[place].largest_load);
-                let part = if values.regime == Regime::Stuck {
-                    (STICKING_PART * tolerance).max(LEAST_PART)
-                } else {
-                    SLIDING_PART
-                };
+                let part = match values.regime {
+                    Regime::Stuck => (STICKING_PART * tolerance).max(LEAST_PART),
+                    _ => SLIDING_PART,
+                } + rough;
                 // What a step takes over of the past deflection: G/(G + γ s0 v).
                 let speed = values.velocity.norm();
                 let present = law.stribeck(speed).0 * load;

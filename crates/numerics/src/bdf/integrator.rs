@@ -108,8 +108,9 @@ pub struct Bdf {
     slope: Vec<f64>,
     /// Second derivatives of the newest value, for the formulas of Newmark.
     curvature: Vec<f64>,
-    /// What the error estimates come from: the new value less the prediction, or, with the formulas
-    /// of Adams, the divided difference of slopes whose order is that of the prediction.
+    /// What the error estimates come from: the new value less the prediction, of which the formulas of
+    /// Newmark take their parts; with those of Adams, the divided difference of slopes whose order is
+    /// that of the prediction.
     error: Vec<f64>,
     neighbour: Vec<f64>,
 }
@@ -351,15 +352,24 @@ impl Bdf {
             history: &self.formula,
             prediction: &self.prediction,
         };
+        let pairs = self.value.iter().zip(&self.prediction);
         match self.settings.family {
-            Family::BackwardDifferences | Family::Newmark(_) => {
-                let pairs = self.value.iter().zip(&self.prediction);
+            Family::BackwardDifferences => {
                 for (e, (v, p)) in self.error.iter_mut().zip(pairs) {
                     *e = v - p;
                 }
-                if self.settings.family != Family::BackwardDifferences {
-                    system.slope(&step, &self.value, &mut self.slope);
+            }
+            Family::Newmark(newmark) => {
+                let positions = system.positions();
+                for (k, (e, (v, p))) in self.error.iter_mut().zip(pairs).enumerate() {
+                    let part = if positions.contains(&k) {
+                        newmark.error
+                    } else {
+                        newmark.slope_error
+                    };
+                    *e = part * (v - p);
                 }
+                system.slope(&step, &self.value, &mut self.slope);
             }
             Family::Adams => {
                 system.slope(&step, &self.value, &mut self.slope);
@@ -570,7 +580,7 @@ impl Bdf {
         let error = match self.settings.family {
             Family::BackwardDifferences => self.backward_error(system, predictor, k, time),
             Family::Adams => self.adams_error(system, predictor, k, time),
-            Family::Newmark(newmark) => newmark.error * system.norm(&self.error),
+            Family::Newmark(_) => system.norm(&self.error),
         };
         // A margin of two in the error; never more than a factor of ten per step.
         let size = size

@@ -112,6 +112,7 @@ fn newmark_is_of_second_order_and_its_error_estimate_is_right() {
         beta: 0.25,
         gamma: 0.5,
         error: 1.0 / 3.0,
+        slope_error: 1.0 / 3.0,
     };
     let mut errors = Vec::new();
     for tolerance in [1e-4, 1e-7] {

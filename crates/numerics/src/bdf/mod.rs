@@ -51,6 +51,8 @@ pub struct Newmark {
     /// Local error of the positions as a part of what they differ from their prediction with
     /// `a = a₀`.
     pub error: f64,
+    /// Local error of all other values as such a part.
+    pub slope_error: f64,
 }
 
 impl Family {
