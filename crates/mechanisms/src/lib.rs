@@ -11,6 +11,7 @@
 //! | flyball governor | `governor.rs` |
 //! | bodies that turn, slide, or both | `rigid.rs`, `turning.rs`, `sliding.rs`, `sleeve.rs` |
 //! | stick and slip: a block on a belt, a block drawn by a spring | `belt.rs` |
+//! | random trees with loops | `random/` |
 //!
 //! ```
 //! use mechanics::Simulation;
@@ -29,6 +30,7 @@ pub mod chains;
 mod cross;
 mod governor;
 mod linkages;
+mod random;
 mod rigid;
 mod sleeve;
 pub mod sliding;
@@ -42,6 +44,7 @@ pub use governor::governor;
 pub use linkages::{
     bricard, driven_slider_crank, four_bar, four_bar_chain, slider_crank, slider_crank_with_pins,
 };
+pub use random::{RandomMechanism, random};
 pub use rigid::{free_body, pendulum, top};
 pub use sleeve::Sleeve;
 pub use spatial::{Rssr, rssr};

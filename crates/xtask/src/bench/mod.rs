@@ -6,7 +6,7 @@ mod clock;
 mod document;
 mod friction_cost;
 pub(crate) mod growth;
-mod integrators;
+pub(crate) mod integrators;
 mod matched;
 mod peers;
 mod picture;

@@ -1,0 +1,230 @@
+//! The table of mechanisms, integrators, errors and frictions.
+
+mod models;
+mod track;
+
+use std::fmt::Write;
+
+use mechanics::model::Model;
+
+use crate::bench::integrators::{ALL as INTEGRATORS, FOR_REFERENCES, Integrator};
+use models::{Choice, Entry};
+use track::{Missing, Track};
+
+/// Powers of ten of ERROR.
+const POWERS: [i32; 6] = [-3, -4, -5, -6, -7, -8];
+/// ERROR of references.
+const REFERENCE: f64 = 1e-10;
+/// Attempts at steps after which a run is given up, and those of references.
+const MOST_STEPS: usize = 30_000;
+const MOST_REFERENCE_STEPS: usize = 200_000;
+/// Part by which weights and velocities are larger for the sensitivity.
+const DISTURBANCE: f64 = 1e-6;
+/// Times ERROR that a success may be off, where the mechanism does not magnify it.
+const GOOD: f64 = 100.0;
+
+/// What came of a run.
+enum Cell {
+    /// Error in units of ERROR, and steps.
+    Success {
+        error: f64,
+        steps: usize,
+    },
+    Refused(String),
+    GivenUp,
+}
+
+/// All runs of a mechanism with one friction.
+struct Block {
+    friction: Choice,
+    /// How many times a small change of weights and velocities is larger in the places.
+    sensitivity: f64,
+    /// By how much the references of the two families differ; none where Adams has none.
+    agreement: Option<f64>,
+    /// By integrator and ERROR.
+    cells: Vec<Vec<Cell>>,
+}
+
+/// Whether a success is a good one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    Good,
+    Magnified,
+    Silent,
+}
+
+impl Block {
+    fn verdict(&self, error: f64) -> Verdict {
+        match error {
+            e if e <= GOOD => Verdict::Good,
+            e if e <= GOOD * self.sensitivity.max(1.0) => Verdict::Magnified,
+            _ => Verdict::Silent,
+        }
+    }
+}
+
+/// The section; mechanisms whose name contains one of `names`, or all.
+pub(super) fn section(names: &[String]) -> String {
+    let mut text = String::new();
+    let mut counts = vec![[0_usize; 5]; INTEGRATORS.len()];
+    let mut causes = String::new();
+    for entry in &models::ALL {
+        if !names.is_empty() && !names.iter().any(|name| entry.name.contains(name.as_str())) {
+            continue;
+        }
+        let Some(model) = (entry.make)() else {
+            continue;
+        };
+        let _ = writeln!(
+            text,
+            "\n### {}, {} s\n\n| friction | sensitivity | references differ by | integrator | {} |\n\
+             |---|---|---|---|{}",
+            entry.name,
+            entry.end,
+            POWERS.map(|p| format!("1e{p}")).join(" | "),
+            "---|".repeat(POWERS.len())
+        );
+        for choice in Choice::ALL {
+            let Some(model) = models::with_friction(model.clone(), choice) else {
+                continue;
+            };
+            match measure(&model, entry, choice) {
+                Ok(block) => text += &rows(&block, entry, &mut counts, &mut causes),
+                Err(message) => {
+                    let _ = writeln!(causes, "* {}, {}: {message}", entry.name, choice.name());
+                    let _ = writeln!(text, "| {} | no reference | | | | | | | | |", choice.name());
+                }
+            }
+        }
+    }
+    heading() + &summary(&counts) + &refusals(&causes) + &text
+}
+
+fn heading() -> String {
+    format!(
+        "## Mechanisms, integrators, errors, frictions\n\nThe mechanisms of the validation cases and of the \
+         tests, each without friction and with ORIGINAL and LUGRE friction (0.25 and 0.2, pins of a \
+         twentieth of the length, Vs = vs = 0.01 of it per second, Dm and the deflection under the weight \
+         1e-4 of it) in all joints that can have it, at six values of ERROR.\n\nA cell has the error in \
+         units of ERROR, and the steps. The error is the largest distance of a body from its place in the \
+         reference as a part of the length of the mechanism (that which ERROR is a part of), or its largest \
+         rotation from there in radians, over ten outputs. ERROR is one of each step: over a run errors \
+         add up, and the mechanism magnifies them. *Sensitivity* is how many times a relative change of \
+         weights and initial velocities is larger in those places. The reference is our own run at {REFERENCE:e} \
+         of the other family: Adams for the formulas of backward differentiation, SI2 for the others, and \
+         SI2 where Adams has none; both differ by what is said.\n\nA success within {GOOD} ERROR is plain; \
+         one in *italics* is within {GOOD} ERROR times the sensitivity; one in **bold** is beyond: a silent \
+         failure. `refused` runs say why not, see below; `long` ones were given up after {MOST_STEPS} \
+         attempts at steps.\n\n"
+    )
+}
+
+/// Measures a mechanism with its friction.
+fn measure(model: &Model, entry: &Entry, friction: Choice) -> Result<Block, String> {
+    let reference = |integrator: &Integrator, model: &Model| {
+        let settings = integrator.settings(REFERENCE, entry.end);
+        Track::of(model, entry.end, &settings, MOST_REFERENCE_STEPS)
+    };
+    let adams = INTEGRATORS.iter().find(|i| i.name == "Adams");
+    let ours = match reference(&FOR_REFERENCES, model) {
+        Ok(track) => track,
+        Err(Missing::Refused(message)) => return Err(message),
+        Err(Missing::GivenUp) => return Err("the reference takes too many steps".to_owned()),
+    };
+    let other = adams.and_then(|adams| reference(adams, model).ok());
+    let disturbed = models::disturbed(model.clone(), DISTURBANCE);
+    let disturbed = reference(&FOR_REFERENCES, &disturbed).ok();
+    let sensitivity = disturbed.map_or(f64::NAN, |d| d.distance(&ours) / DISTURBANCE);
+    let cells = INTEGRATORS.iter().map(|integrator| {
+        let backward = integrator.name.starts_with("GSTIFF");
+        let reference = match &other {
+            Some(other) if backward => other,
+            _ => &ours,
+        };
+        let cell = |power: i32| {
+            let error = 10f64.powi(power);
+            let settings = integrator.settings(error, entry.end);
+            match Track::of(model, entry.end, &settings, MOST_STEPS) {
+                Ok(track) => Cell::Success {
+                    error: track.distance(reference) / error,
+                    steps: track.steps,
+                },
+                Err(Missing::Refused(message)) => Cell::Refused(message),
+                Err(Missing::GivenUp) => Cell::GivenUp,
+            }
+        };
+        POWERS.map(cell).into()
+    });
+    Ok(Block {
+        friction,
+        sensitivity,
+        agreement: other.as_ref().map(|other| other.distance(&ours)),
+        cells: cells.collect(),
+    })
+}
+
+fn rows(block: &Block, entry: &Entry, counts: &mut [[usize; 5]], causes: &mut String) -> String {
+    let mut text = String::new();
+    for ((integrator, cells), counts) in INTEGRATORS.iter().zip(&block.cells).zip(counts) {
+        let _ = write!(
+            text,
+            "| {} | {:.1} | {} | {} |",
+            block.friction.name(),
+            block.sensitivity,
+            block
+                .agreement
+                .map_or_else(|| "no Adams".to_owned(), |a| format!("{a:.0e}")),
+            integrator.name
+        );
+        for (cell, power) in cells.iter().zip(POWERS) {
+            let (place, words) = match cell {
+                Cell::Success { error, steps } => {
+                    let error = if *error < 9.95 {
+                        format!("{error:.1}")
+                    } else {
+                        format!("{error:.0}")
+                    };
+                    match block.verdict(error.parse().unwrap_or(f64::NAN)) {
+                        Verdict::Good => (0, format!("{error}, {steps}")),
+                        Verdict::Magnified => (1, format!("*{error}*, {steps}")),
+                        Verdict::Silent => (2, format!("**{error}**, {steps}")),
+                    }
+                }
+                Cell::Refused(message) => {
+                    let _ = writeln!(
+                        causes,
+                        "* {}, {}, {}, 1e{power}: {message}",
+                        entry.name,
+                        block.friction.name(),
+                        integrator.name
+                    );
+                    (3, "refused".to_owned())
+                }
+                Cell::GivenUp => (4, "long".to_owned()),
+            };
+            counts[place] += 1;
+            let _ = write!(text, " {words} |");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn summary(counts: &[[usize; 5]]) -> String {
+    let mut text =
+        "| integrator | within 100 ERROR | within that times the sensitivity | **silent** | \
+                    refused | long |\n|---|---|---|---|---|---|\n"
+            .to_owned();
+    for (integrator, counts) in INTEGRATORS.iter().zip(counts) {
+        let counts = counts.map(|count| count.to_string()).join(" | ");
+        let _ = writeln!(text, "| {} | {counts} |", integrator.name);
+    }
+    text
+}
+
+fn refusals(causes: &str) -> String {
+    if causes.is_empty() {
+        return String::new();
+    }
+    format!("\nWhat was refused, and why:\n\n{causes}")
+}

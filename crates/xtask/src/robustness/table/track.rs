@@ -1,0 +1,96 @@
+//! Where the bodies of a run were at its outputs.
+
+use mechanics::model::Model;
+use mechanics::rotation;
+use mechanics::{Ending, Observer, Settings, Simulation, Snapshot, StepReport};
+use nalgebra::{Matrix3, Vector3};
+
+/// Outputs of a run.
+const OUTPUTS: usize = 10;
+
+/// Why there is no track.
+#[derive(Clone, Debug)]
+pub(super) enum Missing {
+    /// The run says why it does not go on.
+    Refused(String),
+    /// It took too many steps.
+    GivenUp,
+}
+
+/// Places of all bodies at the outputs, and the steps it took.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    length: f64,
+    outputs: Vec<Vec<(Vector3<f64>, Matrix3<f64>)>>,
+    pub(super) steps: usize,
+}
+
+impl Track {
+    /// Runs a model; gives up after `most` steps.
+    pub(super) fn of(
+        model: &Model,
+        end: f64,
+        settings: &Settings,
+        most: usize,
+    ) -> Result<Self, Missing> {
+        let refused = |text: String| Missing::Refused(text);
+        let mut simulation = Simulation::new(model.clone(), 1.0);
+        simulation
+            .assemble()
+            .map_err(|error| refused(error.to_string()))?;
+        simulation
+            .solve_instant()
+            .map_err(|error| refused(error.to_string()))?;
+        let mut watch = Watch {
+            most,
+            track: Self {
+                length: simulation.system().length_scale(),
+                outputs: Vec::new(),
+                steps: 0,
+            },
+        };
+        let outputs = (1..=OUTPUTS).map(|k| end * k as f64 / OUTPUTS as f64);
+        match simulation.run(end, outputs, settings, &mut watch) {
+            Err(error) => Err(refused(error.to_string())),
+            Ok(Ending::Completed) => Ok(watch.track),
+            Ok(Ending::Stopped | Ending::Paused) => Err(Missing::GivenUp),
+        }
+    }
+
+    /// The largest distance of a body from where `other` has it, as a part of the length of the
+    /// mechanism, or its largest rotation from there in radians.
+    pub(super) fn distance(&self, other: &Self) -> f64 {
+        let mut most = 0.0_f64;
+        for (here, there) in self.outputs.iter().zip(&other.outputs) {
+            for ((r, turn), (other_r, other_turn)) in here.iter().zip(there) {
+                let apart = (r - other_r).norm() / self.length;
+                let turned = rotation::log(&(turn * other_turn.transpose())).norm();
+                for error in [apart, turned] {
+                    // `max` would pass over what is not a number.
+                    most = if error <= most { most } else { error };
+                }
+            }
+        }
+        most
+    }
+}
+
+struct Watch {
+    most: usize,
+    track: Track,
+}
+
+impl Observer for Watch {
+    fn step(&mut self, report: &StepReport) -> bool {
+        self.track.steps = report.statistics.steps.steps;
+        let steps = report.statistics.steps;
+        steps.steps + steps.rejections + steps.failures < self.most
+    }
+
+    fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
+        let bodies = 0..snapshot.model().bodies.len();
+        let place = |body| (snapshot.state().centre(body), snapshot.rotation(body));
+        self.track.outputs.push(bodies.map(place).collect());
+        true
+    }
+}
