@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use stiction::{CheckReport, Code, InputError, Message, Project};
 
 use crate::arguments::{CheckArguments, Format};
-use crate::diagnostics::{VERSION, counts, messages_json};
+use crate::diagnostics::{VERSION, counts};
 use crate::exit::{Exit, complain, say};
 
 /// Loads, assembles and reports.
@@ -56,7 +56,7 @@ fn exit_of(messages: &[Message]) -> Exit {
 fn say_json(messages: &[Message], model: Option<Value>) {
     let value = json!({
         "version": VERSION,
-        "diagnostics": messages_json(messages),
+        "diagnostics": messages.iter().map(Message::to_json).collect::<Vec<_>>(),
         "model": model,
     });
     say(&format!("{value:#}\n"));

@@ -1,7 +1,6 @@
 //! Diagnostics as JSON, and what the command line says about them.
 
 use clap::Args;
-use serde_json::{Value, json};
 use stiction::{LevelError, Levels, Message, Severity};
 
 /// Version of the shape of the JSON; see docs/diagnostics.md.
@@ -51,32 +50,4 @@ pub(crate) fn counts(messages: &[Message]) -> String {
         true => "no errors, no warnings".to_owned(),
         false => counts.join(", "),
     }
-}
-
-/// The messages as JSON.
-pub(crate) fn messages_json<'a>(messages: impl IntoIterator<Item = &'a Message>) -> Vec<Value> {
-    messages.into_iter().map(message_json).collect()
-}
-
-fn message_json(message: &Message) -> Value {
-    let (diagnostic, location) = (&message.diagnostic, &message.location);
-    let replacement = diagnostic.replacement.as_ref().zip(location.replacement);
-    json!({
-        "code": diagnostic.code.as_str(),
-        "severity": diagnostic.severity.as_str(),
-        "message": diagnostic.message,
-        "file": diagnostic.source,
-        "span": span_json(diagnostic.span, [location.start, location.end]),
-        "notes": diagnostic.notes,
-        "help": diagnostic.help,
-        "replacement": replacement.map(|(new, ends)| json!({
-            "span": span_json(new.span, ends),
-            "text": new.text,
-        })),
-    })
-}
-
-fn span_json(span: stiction::Span, ends: [stiction::Place; 2]) -> Value {
-    let end = |offset: usize, place: stiction::Place| json!({ "offset": offset, "line": place.line, "column": place.column });
-    json!({ "start": end(span.start, ends[0]), "end": end(span.end, ends[1]) })
 }

@@ -55,6 +55,7 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let options = RunOptions {
         error: arguments.error,
         checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
+        ..RunOptions::default()
     };
     let ran = if arguments.resume {
         session.resume(&folder, options, &mut monitor)
@@ -144,7 +145,7 @@ fn when(report: &RunReport) -> String {
 
 /// Where the results are, and what friction did.
 fn tell(folder: &Path, report: &RunReport, arguments: &RunArguments) {
-    let (outcome, message) = record::words(&report.outcome);
+    let (outcome, message) = report.outcome.words();
     if let Some(message) = message {
         complain(&format!("{message}\n"));
     }

@@ -9,17 +9,17 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | files to a checked dataset and commands | `loader.rs`, `project.rs` |
+//! | files to a checked dataset and commands | `files.rs`, `loader.rs`, `project.rs` |
 //! | dataset to mechanics | `lower/` |
 //! | a run from outside | `session.rs` |
 //! | what the commands will ask for | `survey.rs` |
 //! | commands carried out | `runner.rs`, equilibria in `statics.rs`, settings and output times in `settings.rs` |
 //! | SAVE and RELOAD | `saving.rs`, their file `saved_system.rs` |
-//! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs` |
+//! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs`, given to others by `sink.rs` |
 //! | events | `sensors.rs` |
 //! | message file | `journal.rs`, LIST in `listing.rs`, INFO and TIME in `info.rs` |
 //! | our own channels of a friction | `friction_detail.rs` |
-//! | table of friction, energy balance | `report.rs`, `balance.rs`, `text_table.rs` |
+//! | table of friction, energy balance | `report.rs`, `balance.rs`, `text_table.rs`; as JSON `report_json.rs` |
 //! | where friction came from, read back | `explain/` |
 //! | a look without a run | `check.rs` |
 //!
@@ -53,6 +53,7 @@ mod defaults;
 mod eigensolution;
 pub mod explain;
 mod failure;
+mod files;
 mod friction_detail;
 mod info;
 mod journal;
@@ -65,6 +66,7 @@ mod project;
 mod recorder;
 mod refusal;
 mod report;
+mod report_json;
 mod resuming;
 mod runner;
 mod saved_system;
@@ -72,6 +74,7 @@ mod saving;
 mod sensors;
 mod session;
 mod settings;
+pub mod sink;
 mod statics;
 mod survey;
 mod text_table;
@@ -84,6 +87,7 @@ pub use checkpoint::{CheckpointError, ResumeError};
 pub use dataset::{Code, Diagnostic, Location, Place, Replacement, Severity, Span};
 pub use defaults::{FrictionDefaults, defaults_in_use};
 pub use eigensolution::{ModeLine, ModeReport};
+pub use files::{Disk, Files};
 pub use levels::{LevelError, Levels};
 pub use message::{InputError, Message};
 pub use project::Project;

@@ -4,14 +4,23 @@ use std::path::{Path, PathBuf};
 
 use dataset::{Code, Command, CommandKind, Dataset, Diagnostic, Severity, Source, Span};
 
+use crate::files::Files;
 use crate::levels::Levels;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::project::{Project, SourcedCommand};
 
 /// Reads a dataset, or a command file with the dataset that it names.
-pub(crate) fn load(path: &Path, levels: Levels) -> Result<Project, InputError> {
-    let mut loader = Loader::default();
+pub(crate) fn load(from: &dyn Files, path: &Path, levels: Levels) -> Result<Project, InputError> {
+    let mut loader = Loader {
+        from,
+        sources: Vec::new(),
+        files: Vec::new(),
+        messages: Vec::new(),
+        commands: Vec::new(),
+        dataset: None,
+        prefix: None,
+    };
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
     let is_dataset = extension != "acf";
     if is_dataset {
@@ -33,8 +42,8 @@ struct OpenFile {
 }
 
 /// Files while they are read.
-#[derive(Default)]
-struct Loader {
+struct Loader<'a> {
+    from: &'a dyn Files,
     sources: Vec<Source>,
     files: Vec<PathBuf>,
     messages: Vec<Message>,
@@ -49,11 +58,11 @@ struct Naming {
     span: Span,
 }
 
-impl Loader {
+impl Loader<'_> {
     /// Reads a source; an error is reported at the command that names it, if one does.
     fn read(&mut self, path: &Path, naming: Option<&Naming>) -> Option<usize> {
         let shown = path.display().to_string();
-        let text = std::fs::read(path).map_err(|error| error.to_string());
+        let text = self.from.read(path).map_err(|error| error.to_string());
         let source = match text {
             Ok(bytes) => match Source::from_bytes(&shown, &bytes) {
                 Ok(source) => source,
@@ -144,7 +153,7 @@ impl Loader {
                     self.model(&folder, path, output_prefix.as_deref(), &naming);
                 }
                 CommandKind::CommandFile { path } => {
-                    let found = resolve(&folder, path, "acf");
+                    let found = resolve(self.from, &folder, path, "acf");
                     if open.iter().any(|file| file.path == found) {
                         let message = format!("{} calls itself", found.display());
                         let help = Some("this would never end");
@@ -194,7 +203,7 @@ impl Loader {
         self.prefix = prefix
             .map(|prefix| base_name(prefix).to_owned())
             .filter(|p| !p.is_empty());
-        let found = resolve(folder, path, "adm");
+        let found = resolve(self.from, folder, path, "adm");
         self.read_dataset(&found, Some(naming));
     }
 
@@ -258,7 +267,7 @@ pub(crate) fn base_name(path: &str) -> &str {
 /// The file that a command means: the path as written from the folder of the command file, else
 /// its base name there, in the end without regard to case (names written on Windows); with the
 /// extension added where it is missing.
-fn resolve(folder: &Path, written: &str, extension: &str) -> PathBuf {
+fn resolve(from: &dyn Files, folder: &Path, written: &str, extension: &str) -> PathBuf {
     let with_extension = |name: &str| {
         let has = Path::new(name)
             .extension()
@@ -271,38 +280,41 @@ fn resolve(folder: &Path, written: &str, extension: &str) -> PathBuf {
     };
     let written = written.trim();
     let direct = with_extension(written);
-    if direct.is_file() {
+    if from.is_file(&direct) {
         return direct;
     }
     let beside = with_extension(base_name(written));
-    if beside.is_file() {
+    if from.is_file(&beside) {
         return beside;
     }
-    in_any_case(&beside).unwrap_or(beside)
+    in_any_case(from, &beside).unwrap_or(beside)
 }
 
 /// The file of a folder whose name differs in case only; the first one by name.
-fn in_any_case(path: &Path) -> Option<PathBuf> {
+fn in_any_case(from: &dyn Files, path: &Path) -> Option<PathBuf> {
     let (folder, name) = (path.parent()?, path.file_name()?);
-    let entries = std::fs::read_dir(folder).ok()?;
-    let same = entries
-        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
-        .filter(|path| {
-            path.file_name()
-                .is_some_and(|n| n.eq_ignore_ascii_case(name))
-        });
+    let same = from.in_folder(folder).into_iter().filter(|path| {
+        path.file_name()
+            .is_some_and(|n| n.eq_ignore_ascii_case(name))
+    });
     same.min()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::Disk;
 
     #[test]
     fn paths_of_other_systems_fall_back_to_the_base_name() {
-        let found = resolve(Path::new("here"), r"C:\Users\someone\models\arm", "adm");
+        let found = resolve(
+            &Disk,
+            Path::new("here"),
+            r"C:\Users\someone\models\arm",
+            "adm",
+        );
         assert_eq!(found, Path::new("here").join("arm.adm"));
-        let found = resolve(Path::new("here"), "arm.v2", "adm");
+        let found = resolve(&Disk, Path::new("here"), "arm.v2", "adm");
         assert_eq!(found, Path::new("here").join("arm.v2.adm"));
         assert_eq!(base_name("plain"), "plain");
     }
@@ -311,7 +323,7 @@ mod tests {
     fn names_in_another_case_are_found() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
         assert_eq!(
-            resolve(folder, "cargo.TOML", "toml"),
+            resolve(&Disk, folder, "cargo.TOML", "toml"),
             folder.join("Cargo.toml")
         );
     }

@@ -8,6 +8,8 @@ use dataset::{
 };
 use sha2::{Digest, Sha256};
 
+use crate::channels::unit_names;
+use crate::files::{Disk, Files};
 use crate::levels::Levels;
 use crate::loader;
 use crate::lower::{Measures, Mode, lower};
@@ -63,7 +65,17 @@ impl Project {
     /// # Errors
     /// Everything that is wrong with the files, and what is denied.
     pub fn load_with(path: &Path, levels: Levels) -> Result<Self, InputError> {
-        loader::load(path, levels)
+        Self::load_from(&Disk, path, levels)
+    }
+
+    /// [`Project::load_with`] from other files than those of the disk.
+    ///
+    /// What a run reads itself (systems that RELOAD names) it reads from the disk still.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the files, and what is denied.
+    pub fn load_from(files: &dyn Files, path: &Path, levels: Levels) -> Result<Self, InputError> {
+        loader::load(files, path, levels)
     }
 
     /// The dataset, with the changes made so far.
@@ -105,8 +117,15 @@ impl Project {
         &self.warnings
     }
 
+    /// Names of the units of the model, as results have them.
+    #[must_use]
+    pub fn unit_names(&self) -> results::UnitNames {
+        unit_names(&self.dataset)
+    }
+
     /// A checksum of the model as given: the text of the dataset and the changes made before the run.
-    pub(crate) fn model_checksum(&self) -> String {
+    #[must_use]
+    pub fn model_checksum(&self) -> String {
         let mut hash = Sha256::new();
         hash.update(self.model_source().text());
         for change in &self.given_changes {
@@ -134,7 +153,15 @@ impl Project {
     /// # Errors
     /// What is wrong with it.
     pub fn set(&mut self, change: &str) -> Result<(), InputError> {
-        let source = Source::from_text("--set", change.to_owned());
+        self.set_as("--set", change)
+    }
+
+    /// [`Project::set`], with another name for the place that the change comes from in messages.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn set_as(&mut self, place: &str, change: &str) -> Result<(), InputError> {
+        let source = Source::from_text(place, change.to_owned());
         let (parsed, mut diagnostics) = dataset::parse_change(&source);
         if let Some(parsed) = parsed.filter(|_| !has_error(&diagnostics)) {
             diagnostics.extend(self.dataset.apply(&parsed));

@@ -15,6 +15,7 @@ use crate::journal::Journal;
 use crate::lower::Outputs;
 use crate::report::{self, FrictionReport};
 use crate::session::{OutputError, Progress, Watch};
+use crate::sink::Sink;
 use crate::wrenches::Wrenches;
 
 /// Why writing stops a run.
@@ -122,10 +123,13 @@ fn name(path: &Path) -> String {
         .into_owned()
 }
 
-impl Recorder<File> {
+impl Recorder<'_, File> {
     /// How far its files are written.
     pub(crate) fn marks(&self, messages: u64) -> Result<Marks, OutputError> {
-        let ([res, req], names, blocks) = self.files.marks()?;
+        let Some(files) = &self.files else {
+            return Err(OutputError::new("checkpoint", &"the run writes no .res"));
+        };
+        let ([res, req], names, blocks) = files.marks()?;
         Ok(Marks {
             names,
             lengths: [res, req, messages],
@@ -154,9 +158,13 @@ impl<W: Write> ResultFiles<W> {
     }
 }
 
-/// The files of results and what a row needs.
-pub(crate) struct Recorder<W: Write> {
-    pub(crate) files: ResultFiles<W>,
+/// Where results go and what a row needs.
+pub(crate) struct Recorder<'a, W: Write> {
+    /// `.res` and `.req`; none where the run writes none.
+    pub(crate) files: Option<ResultFiles<W>>,
+    pub(crate) sink: Option<&'a mut dyn Sink>,
+    /// What the rows that are written now belong to.
+    pub(crate) kind: DataKind,
     /// Paths of the message file and of results that are finished.
     pub(crate) others: Vec<PathBuf>,
     pub(crate) channels: Channels,
@@ -168,39 +176,48 @@ pub(crate) struct Recorder<W: Write> {
     pub(crate) count: usize,
 }
 
-impl<W: Write> Recorder<W> {
+impl<W: Write> Recorder<'_, W> {
     /// Ends the files and writes others.
     pub(crate) fn change_files(
         &mut self,
         files: ResultFiles<W>,
         status: &str,
     ) -> Result<(), OutputError> {
-        let before = std::mem::replace(&mut self.files, files);
-        self.others.extend(before.finish(status)?);
+        if let Some(before) = self.files.replace(files) {
+            self.others.extend(before.finish(status)?);
+        }
         Ok(())
     }
 
     /// Whether one of the files of this run has this path.
     pub(crate) fn has_written(&self, path: &Path) -> bool {
-        let all = self.others.iter().chain(&self.files.paths);
-        all.into_iter().any(|written| written == path)
+        let open = self.files.iter().flat_map(|files| &files.paths);
+        self.others
+            .iter()
+            .chain(open)
+            .any(|written| written == path)
     }
 
     /// The block that stands for the model as given: zeros, as in Adams.
     pub(crate) fn model_input(&mut self) -> Result<(), OutputError> {
+        let Some(files) = &mut self.files else {
+            return Ok(());
+        };
         let zeros = vec![0.0; self.channels.layout().value_count()];
-        let written = self.files.res.begin_data(DataKind::ModelInput);
-        let written = written.and_then(|()| self.files.res.step(0.0, &zeros));
-        written.map_err(|error| self.files.res_error(&error))
+        let written = files.res.begin_data(DataKind::ModelInput);
+        let written = written.and_then(|()| files.res.step(0.0, &zeros));
+        written.map_err(|error| files.res_error(&error))
     }
 
     /// Begins a block of rows.
     pub(crate) fn begin(&mut self, kind: DataKind) -> Result<(), OutputError> {
         self.account.pause();
-        self.files
-            .res
-            .begin_data(kind)
-            .map_err(|error| self.files.res_error(&error))
+        self.kind = kind;
+        let Some(files) = &mut self.files else {
+            return Ok(());
+        };
+        let begun = files.res.begin_data(kind);
+        begun.map_err(|error| files.res_error(&error))
     }
 
     /// Begins the rows of a dynamic or kinematic simulation that starts at this instant, whose
@@ -243,8 +260,15 @@ impl<W: Write> Recorder<W> {
         let dissipated = self.account.dissipated();
         report::add(&mut self.frictions, wrenches, dissipated);
         let time = wrenches.snapshot().time();
-        let written = self.files.req.step(time, &self.row.requests);
-        written.map_err(|error| Stop::Output(self.files.error(1, &error)))
+        if let Some(sink) = &mut self.sink {
+            let taken = sink.row(self.kind, time, &self.row.values);
+            taken.map_err(Stop::Output)?;
+        }
+        let Some(files) = &mut self.files else {
+            return Ok(());
+        };
+        let written = files.req.step(time, &self.row.requests);
+        written.map_err(|error| Stop::Output(files.error(1, &error)))
     }
 
     fn write_results(&mut self, wrenches: &Wrenches<'_>) -> Result<(), Stop> {
@@ -258,14 +282,17 @@ impl<W: Write> Recorder<W> {
                 "the result {name} is not a finite number at time {time}"
             )));
         }
-        let written = self.files.res.step(time, &self.row.values);
-        written.map_err(|error| Stop::Output(self.files.res_error(&error)))
+        let Some(files) = &mut self.files else {
+            return Ok(());
+        };
+        let written = files.res.step(time, &self.row.values);
+        written.map_err(|error| Stop::Output(files.res_error(&error)))
     }
 }
 
 /// Takes steps and outputs of a simulation to the files.
 pub(crate) struct Observe<'a, 'p, W: Write> {
-    pub(crate) recorder: &'a mut Recorder<W>,
+    pub(crate) recorder: &'a mut Recorder<'p, W>,
     pub(crate) log: &'a mut Journal<'p, W>,
     pub(crate) watch: &'a mut dyn Watch,
     /// When the run began.

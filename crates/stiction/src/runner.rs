@@ -26,6 +26,7 @@ use crate::saved_system::SavedSystem;
 use crate::sensors::{Effect, Keeping, Sensing, Sensors};
 use crate::session::{FailedCommand, Outcome, OutputError, RunOptions, RunReport, Session, Watch};
 use crate::settings::{self, TimeSpan};
+use crate::sink::Sink;
 
 /// Rows of the integrator's table, about, for each simulation.
 const TABLE_ROWS: f64 = 10.0;
@@ -65,7 +66,7 @@ pub(crate) struct Runner<'a> {
     pub(crate) started: Instant,
     pub(crate) last_end: f64,
     pub(crate) log: Journal<'a, File>,
-    pub(crate) recorder: Recorder<File>,
+    pub(crate) recorder: Recorder<'a, File>,
 }
 
 /// What the results hold of the present instant.
@@ -131,6 +132,7 @@ impl<'a> Runner<'a> {
         folder: &Path,
         options: RunOptions,
         from: Option<Checkpoint<'static>>,
+        mut sink: Option<&'a mut dyn Sink>,
     ) -> Result<Self, ResumeError> {
         let project = session.project;
         let dataset = project.dataset().clone();
@@ -158,15 +160,22 @@ impl<'a> Runner<'a> {
                     units: units.clone(),
                     ..Header::default()
                 };
+                if let Some(sink) = &mut sink {
+                    sink.begin(&header, channels.layout())?;
+                }
                 let paths = ResultFiles::paths(folder, project.prefix());
-                let files = ResultFiles::create(paths, &header, &channels)?;
+                let files = options
+                    .writes_results()
+                    .then(|| ResultFiles::create(paths, &header, &channels));
+                let files = files.transpose()?;
                 (Journal::new(log, shown, project), files)
             }
             Some(checkpoint) => {
                 let RunProgress { files, told, .. } = &checkpoint.progress;
                 let log = MessageWriter::append(reopened(&log_path, files.lengths[2])?);
                 let files = ResultFiles::resume(folder, files, &channels)?;
-                (Journal::resume(log, shown, project, told.clone()), files)
+                let log = Journal::resume(log, shown, project, told.clone());
+                (log, Some(files))
             }
         };
         let simulation = Simulation::new(lowered.model.clone(), second(&dataset));
@@ -202,6 +211,8 @@ impl<'a> Runner<'a> {
             log,
             recorder: Recorder {
                 files,
+                sink,
+                kind: DataKind::ModelInput,
                 others: vec![log_path],
                 channels,
                 outputs: lowered.outputs.clone(),
@@ -637,7 +648,9 @@ impl<'a> Runner<'a> {
             count,
             ..
         } = self.recorder;
-        others.splice(0..0, files.finish(status)?);
+        if let Some(files) = files {
+            others.splice(0..0, files.finish(status)?);
+        }
         let warnings = self.log.warnings();
         Ok(RunReport {
             outcome,

@@ -219,6 +219,9 @@ impl Runner<'_> {
             let text = format!("OUTPUT_PREFIX = {prefix} names no other files");
             return Err(self.refuse(step, text, "write a prefix that this run has not used"));
         }
+        if self.recorder.files.is_none() {
+            return Ok(());
+        }
         let units = unit_names(&self.dataset);
         let header = Header {
             title,

@@ -14,9 +14,10 @@ use crate::message::{InputError, Message};
 use crate::project::Project;
 use crate::report::FrictionReport;
 use crate::runner::Runner;
+use crate::sink::Sink;
 
 /// What can be said about a run beyond its files.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunOptions {
     /// Error tolerance instead of that of the INTEGRATOR statement.
     pub error: Option<f64>,
@@ -25,6 +26,25 @@ pub struct RunOptions {
     /// one where the run is interrupted, and none is left behind by a run that has ended. None: no
     /// checkpoints.
     pub checkpoint: Option<Duration>,
+    /// Whether `.res` and `.req` are written, as they are by default; a run with checkpoints always
+    /// writes them, and every run its `.msg`.
+    pub text_results: bool,
+}
+
+impl Default for RunOptions {
+    fn default() -> Self {
+        Self {
+            error: None,
+            checkpoint: None,
+            text_results: true,
+        }
+    }
+}
+
+impl RunOptions {
+    pub(crate) fn writes_results(&self) -> bool {
+        self.text_results || self.checkpoint.is_some()
+    }
 }
 
 /// How far a run is.
@@ -163,12 +183,34 @@ impl<'a> Session<'a> {
         options: RunOptions,
         watch: &mut dyn Watch,
     ) -> Result<RunReport, OutputError> {
-        let runner = Runner::new(self, folder, options, None).map_err(|error| match error {
+        self.begin(folder, options, None)?.carry_out(watch)
+    }
+
+    /// [`Session::run`] that gives the rows of its results to `sink`, too.
+    ///
+    /// # Errors
+    /// Files that cannot be written, and what the sink refuses.
+    pub fn run_into(
+        &self,
+        folder: &Path,
+        options: RunOptions,
+        watch: &mut dyn Watch,
+        sink: &mut dyn Sink,
+    ) -> Result<RunReport, OutputError> {
+        self.begin(folder, options, Some(sink))?.carry_out(watch)
+    }
+
+    fn begin<'s>(
+        &'s self,
+        folder: &Path,
+        options: RunOptions,
+        sink: Option<&'s mut dyn Sink>,
+    ) -> Result<Runner<'s>, OutputError> {
+        Runner::new(self, folder, options, None, sink).map_err(|error| match error {
             ResumeError::Output(error) => error,
             // Nothing is resumed.
             ResumeError::Refused { path, cause } => OutputError::new(path, &cause),
-        })?;
-        runner.carry_out(watch)
+        })
     }
 
     /// Goes on with a run from the checkpoint in the folder of its results. These are cut back to what
@@ -190,7 +232,7 @@ impl<'a> Session<'a> {
             path: path.display().to_string(),
             cause,
         })?;
-        let runner = Runner::new(self, folder, options, Some(checkpoint))?;
+        let runner = Runner::new(self, folder, options, Some(checkpoint), None)?;
         Ok(runner.carry_out(watch)?)
     }
 }

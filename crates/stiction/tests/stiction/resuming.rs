@@ -25,11 +25,13 @@ impl Watch for StopAfter {
 const SELDOM: RunOptions = RunOptions {
     error: None,
     checkpoint: Some(Duration::MAX),
+    text_results: true,
 };
 /// Checkpoints after every step.
 const ALWAYS: RunOptions = RunOptions {
     error: None,
     checkpoint: Some(Duration::ZERO),
+    text_results: true,
 };
 
 /// A project of a dataset `model.adm` and commands.

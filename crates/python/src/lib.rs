@@ -1,0 +1,28 @@
+//! `stiction._native`: what the Python package `stiction` takes from Rust.
+//!
+//! It is kept small: models and tables cross the border as bytes and JSON, and the classes that users
+//! see are written in Python, beside this crate in `stiction/`.
+//!
+//! | what | file |
+//! |---|---|
+//! | models: reading, changing, telling what they hold | `project.rs`, `description.rs`, `recording.rs` |
+//! | runs: without the lock of the interpreter, stopped by Ctrl-C | `run.rs`, the table of results `table.rs` |
+//! | friction laws over arrays | `laws.rs` |
+
+mod description;
+mod laws;
+mod project;
+mod recording;
+mod run;
+mod table;
+
+/// What the package takes from Rust.
+#[pyo3::pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::laws::{lugre, lugre_stribeck, original};
+    #[pymodule_export]
+    use crate::project::{InputFailure, OutputFailure, Project};
+    #[pymodule_export]
+    use crate::run::run;
+}

@@ -1,0 +1,34 @@
+"""The examples of docs/python.md print what stands there, and those of docstrings."""
+
+import doctest
+import re
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+
+import pytest
+import stiction
+import stiction.laws
+import stiction.units
+
+ROOT = Path(__file__).parents[3]
+BLOCKS = re.compile(r"```python\n(.*?)```(?:\s*```text\n(.*?)```)?", re.DOTALL)
+
+
+def test_the_page_prints_what_it_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    names: dict[str, object] = {}
+    blocks = BLOCKS.findall((ROOT / "docs" / "python.md").read_text(encoding="utf-8"))
+    assert len(blocks) >= 6
+    for code, expected in blocks:
+        said = StringIO()
+        with redirect_stdout(said):
+            exec(code, names)
+        assert said.getvalue().rstrip() == expected.rstrip()
+
+
+@pytest.mark.parametrize("module", [stiction, stiction.laws, stiction.units])
+def test_docstrings(module: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    found = doctest.testmod(module)  # type: ignore[arg-type]
+    assert found.attempted > 0 and found.failed == 0
