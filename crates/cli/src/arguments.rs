@@ -100,6 +100,17 @@ pub(crate) struct RunArguments {
     /// line; none: nothing.
     #[arg(long, value_enum, default_value_t = ProgressKind::Auto)]
     pub(crate) progress: ProgressKind,
+    /// Formats of the results
+    ///
+    /// res: PREFIX.res and PREFIX.req; parquet, csv: tables of frictions and of states, with
+    /// tables.json beside csv. Tables get their names when the run has ended.
+    #[arg(
+        long = "format",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "res"
+    )]
+    pub(crate) formats: Vec<ResultFormat>,
     /// Write into a folder that exists already; its files of the same names are replaced
     #[arg(long)]
     pub(crate) force: bool,
@@ -117,6 +128,25 @@ pub(crate) struct RunArguments {
     pub(crate) resume: bool,
     #[command(flatten)]
     pub(crate) levels: LevelArguments,
+}
+
+/// A format of results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ResultFormat {
+    Res,
+    Parquet,
+    Csv,
+}
+
+impl ResultFormat {
+    /// As a format of tables, if it is one.
+    pub(crate) fn of_tables(self) -> Option<columnar::Format> {
+        match self {
+            Self::Res => None,
+            Self::Parquet => Some(columnar::Format::Parquet),
+            Self::Csv => Some(columnar::Format::Csv),
+        }
+    }
 }
 
 /// Look through a model without simulating it.

@@ -63,6 +63,31 @@ fn sha256(path: &Path) -> io::Result<String> {
         .collect())
 }
 
+/// What the run was asked for.
+fn options(arguments: &RunArguments) -> Value {
+    json!({
+        "end": arguments.end,
+        "steps": arguments.steps,
+        "dtout": arguments.dtout,
+        "error": arguments.error,
+        "set": arguments.changes,
+    })
+}
+
+/// What tables tell of a run in their metadata.
+pub(crate) fn facts(
+    project: &Project,
+    arguments: &RunArguments,
+    report: &RunReport,
+) -> Vec<(&'static str, String)> {
+    vec![
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("model", project.model_checksum()),
+        ("options", options(arguments).to_string()),
+        ("outcome", report.outcome.words().0.to_owned()),
+    ]
+}
+
 /// Writes `run.json` into `folder`.
 pub(crate) fn write(
     folder: &Path,
@@ -78,16 +103,7 @@ pub(crate) fn write(
         ("program", json!("stiction")),
         ("version", json!(env!("CARGO_PKG_VERSION"))),
         ("inputs", json!(inputs)),
-        (
-            "options",
-            json!({
-                "end": arguments.end,
-                "steps": arguments.steps,
-                "dtout": arguments.dtout,
-                "error": arguments.error,
-                "set": arguments.changes,
-            }),
-        ),
+        ("options", options(arguments)),
         ("exit_code", json!(exit_of(report).code())),
         (
             "diagnostics",

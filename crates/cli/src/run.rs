@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use columnar::Tables;
 use stiction::{Outcome, Project, ResumeError, RunOptions, RunReport, Session, friction_table};
 
-use crate::arguments::RunArguments;
+use crate::arguments::{ResultFormat, RunArguments};
 use crate::exit::{Exit, complain, say};
 use crate::progress::Monitor;
 use crate::record;
@@ -55,16 +56,27 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let options = RunOptions {
         error: arguments.error,
         checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
-        ..RunOptions::default()
+        text_results: arguments.formats.contains(&ResultFormat::Res),
     };
+    let formats = arguments.formats.iter();
+    let formats: Vec<_> = formats.filter_map(|format| format.of_tables()).collect();
+    let mut tables = Tables::new(&folder, formats);
     let ran = if arguments.resume {
         session.resume(&folder, options, &mut monitor)
-    } else {
+    } else if tables.is_empty() {
         let ran = session.run(&folder, options, &mut monitor);
+        ran.map_err(ResumeError::from)
+    } else {
+        let ran = session.run_into(&folder, options, &mut monitor, &mut tables);
         ran.map_err(ResumeError::from)
     };
     monitor.finish();
-    let report = ran.map_err(|error| usage(&error.to_string()))?;
+    let mut report = ran.map_err(|error| usage(&error.to_string()))?;
+    let facts = record::facts(&project, arguments, &report);
+    let tables = tables.finish(&facts);
+    report
+        .files
+        .extend(tables.map_err(|error| usage(&error.to_string()))?);
     let warnings = session.warnings();
     record::write(&folder, &inputs, arguments, warnings, &report).map_err(|error| {
         usage(&format!(
@@ -86,6 +98,12 @@ fn check_numbers(arguments: &RunArguments) -> Result<(), Failure> {
         if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
             return Err(usage(&format!("{name} must be a positive number")));
         }
+    }
+    let tables = arguments.formats.iter().any(|f| f.of_tables().is_some());
+    if tables && (arguments.resume || arguments.checkpoint.is_some()) {
+        return Err(usage(
+            "parquet and csv cannot be resumed; leave out --checkpoint and --resume, or write res",
+        ));
     }
     let seconds = arguments.checkpoint;
     if seconds.is_some_and(|seconds| Duration::try_from_secs_f64(seconds).is_err()) {

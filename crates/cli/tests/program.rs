@@ -24,6 +24,37 @@ fn json(bytes: &[u8]) -> serde_json::Value {
 }
 
 #[test]
+fn tables_are_written_instead_of_or_beside_the_res() {
+    let folder = folder("tables", &[("p.adm", PENDULUM)]);
+    let run = ["run", "p.adm", "--end", "0.1", "--dtout", "0.01"];
+    let asked = ["--format", "parquet,csv", "-o", "tables"];
+    let output = stiction(&folder, &[&run[..], &asked].concat());
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let here = folder.join("tables");
+    let text = |file: &str| std::fs::read_to_string(here.join(file)).unwrap();
+    assert!(!here.join("p.res").exists() && here.join("friction.parquet").is_file());
+    let states = text("states.csv");
+    assert_eq!(states.lines().count(), 12);
+    assert!(states.starts_with("time,analysis,PART_2_XFORM.X,"));
+    let friction = text("friction.csv");
+    assert!(
+        friction.starts_with("time,friction,name,channel,value,unit\n0.0,103,FRICTION_103,FX,")
+    );
+    let facts = json(text("tables.json").as_bytes());
+    assert_eq!(facts["outcome"], "completed");
+    assert_eq!(facts["title"], "A pendulum");
+
+    let both = ["--format", "res,csv", "-o", "both"];
+    let output = stiction(&folder, &[&run[..], &both].concat());
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    assert!(folder.join("both/p.res").is_file() && folder.join("both/states.csv").is_file());
+    let resumed = ["--format", "csv", "--checkpoint", "1", "-o", "resumed"];
+    let output = stiction(&folder, &[&run[..], &resumed].concat());
+    assert_eq!(code(&output), 2);
+    assert!(errors(&output).contains("cannot be resumed"));
+}
+
+#[test]
 fn a_run_writes_a_folder_and_does_not_overwrite_it() {
     let folder = folder("run", &[("p.adm", PENDULUM)]);
     let arguments = ["run", "p.adm", "--end", "0.1", "--dtout", "0.01"];

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use columnar::{Format, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use stiction::sink::Sink;
 use stiction::{OutputError, Progress, RunOptions, Session, Watch};
 
 use crate::project::{OutputFailure, Project, input_failure, messages};
@@ -51,18 +53,21 @@ type Ran<'py> = (
     Option<PyErr>,
 );
 
-/// Runs a model: with a folder the files of results go there, without one there are none. `told` is
-/// called with time and end now and then.
+/// Runs a model: with a folder results go there in the formats (`res`, `parquet`, `csv`), without one
+/// there are no files. `facts` stand in the metadata of tables, `told` is called with time and end
+/// now and then.
 #[pyfunction]
-#[pyo3(signature = (model, folder, end, steps, dtout, error, told))]
+#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, facts, told))]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     model: &Project,
     folder: Option<PathBuf>,
+    formats: Vec<String>,
     end: Option<f64>,
     steps: Option<u32>,
     dtout: Option<f64>,
     error: Option<f64>,
+    facts: Vec<(String, String)>,
     told: Option<Py<PyAny>>,
 ) -> PyResult<Ran<'py>> {
     let mut monitor = Monitor {
@@ -80,13 +85,28 @@ pub(crate) fn run<'py>(
         let scratch = tempfile::tempdir()?;
         let into = folder.as_deref().unwrap_or(scratch.path());
         std::fs::create_dir_all(into)?;
-        let options = RunOptions {
+        let wanted = |format: &str| formats.iter().any(|wanted| wanted == format);
+        let settings = RunOptions {
             error,
-            text_results: folder.is_some(),
+            text_results: folder.is_some() && wanted("res"),
             ..RunOptions::default()
         };
-        let report = session.run_into(into, options, &mut monitor, &mut table);
+        let each = [("parquet", Format::Parquet), ("csv", Format::Csv)];
+        let of_tables = each.into_iter().filter(|(name, _)| wanted(name));
+        let mut tables = Tables::new(into, of_tables.map(|(_, format)| format).collect());
+        let mut sinks: Vec<&mut dyn Sink> = vec![&mut table];
+        if folder.is_some() && !tables.is_empty() {
+            sinks.push(&mut tables);
+        }
+        let report = session.run_into(into, settings, &mut monitor, &mut sinks);
         let report = report.map_err(output_failure)?;
+        let own = [
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("outcome", report.outcome.words().0.to_owned()),
+        ];
+        let given = facts.iter().map(|(name, fact)| (&**name, fact.clone()));
+        let facts: Vec<_> = own.into_iter().chain(given).collect();
+        tables.finish(&facts).map_err(output_failure)?;
         let log = into.join(format!("{}.msg", project.prefix()));
         let log = std::fs::read_to_string(log).unwrap_or_default();
         let told = messages(session.warnings().iter().chain(&report.messages));

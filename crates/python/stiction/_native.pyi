@@ -23,10 +23,12 @@ class Project:
 def run(
     model: Project,
     folder: str | None,
+    formats: list[str],
     end: float | None,
     steps: int | None,
     dtout: float | None,
     error: float | None,
+    facts: list[tuple[str, str]],
     told: Callable[[float, float], object] | None,
 ) -> tuple[str, bytes, bytes, bytes, str, str, str, BaseException | None]: ...
 def original(

@@ -22,6 +22,8 @@ from .units import Quantity, converted, of_dimension
 #: word or expression, or several of them.
 Value = Union[float, Quantity, str, Sequence[Union[float, str]]]
 
+_FORMATS = ("res", "parquet", "csv")
+
 #: Statements that a model has at most one of, so that they have no id.
 _SINGLE = ("ACCGRAV", "EQUILIBRIUM", "INTEGRATOR", "PREFERENCES")
 
@@ -268,14 +270,16 @@ class Model:
         error: float | None = None,
         integrator: str | None = None,
         output: str | os.PathLike[str] | None = None,
+        formats: Sequence[str] = ("res",),
         progress: bool | Callable[[float, float], object] = False,
     ) -> Result:
         """Simulates the model: the commands of its command file, or the dynamics of a dataset alone
         until `end`, with an output every `dtout` or `steps` of them (model's unit of time).
 
         `error` is the error tolerance; `integrator` the rest of an INTEGRATOR statement, such as
-        ``"HHT, ERROR=1e-6"``. With `output` the files of results (`.res`, `.req`, `.msg`) are
-        written into that folder. `progress` shows how far it is, or is called with time and end.
+        ``"HHT, ERROR=1e-6"``. With `output` results are written into that folder while it runs, in
+        the `formats` "res" (`.res` and `.req`), "parquet" and "csv" (tables `friction` and
+        `states`), and the message file. `progress` shows how far it is, or is called with time and end.
 
         Other threads of Python go on meanwhile. Ctrl-C stops the run and raises
         :class:`Interrupted`, a KeyboardInterrupt that has the results so far. A run that fails
@@ -289,6 +293,9 @@ class Model:
             raise ParameterError(f"steps must be a positive number of outputs, it is {steps}")
         if steps is not None and dtout is not None:
             raise ParameterError("steps and dtout say the same; give one of them")
+        for format in formats:
+            if format not in _FORMATS:
+                raise ParameterError(str(unknown("format", format, _FORMATS)))
         alone = self._about["is_dataset_alone"]
         if alone and end is None:
             raise ParameterError("a dataset alone has no commands; give the end of the simulation")
@@ -296,15 +303,6 @@ class Model:
             raise ParameterError(
                 "the command file says what to simulate; load the dataset (.adm) to give an end"
             )
-        with typed_errors():
-            project = self._project
-            if integrator is not None:
-                project = project.changed([f"INTEGRATOR/{_line('integrator', integrator)}"])
-            told = progress if callable(progress) else _show if progress else None
-            folder = None if output is None else os.fspath(output)
-            ran = _native.run(project, folder, end, steps, dtout, error, told)
-        if progress is True:
-            print(file=sys.stderr)
         options = {
             "end": end,
             "steps": steps,
@@ -313,6 +311,25 @@ class Model:
             "integrator": integrator,
             "changes": list(self._changes),
         }
+        with typed_errors():
+            project = self._project
+            if integrator is not None:
+                project = project.changed([f"INTEGRATOR/{_line('integrator', integrator)}"])
+            told = progress if callable(progress) else _show if progress else None
+            folder = None if output is None else os.fspath(output)
+            ran = _native.run(
+                project,
+                folder,
+                list(formats),
+                end,
+                steps,
+                dtout,
+                error,
+                [("model", self.checksum), ("options", json.dumps(options))],
+                told,
+            )
+        if progress is True:
+            print(file=sys.stderr)
         return Result._of_run(ran, self, options)
 
     def __repr__(self) -> str:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .model import Model
+    from .plots import Plots
 
     Floats = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 REGIMES = ("stuck", "transition", "sliding")
 
 #: What a row belongs to, by number.
-ANALYSES = ("model input", "initial conditions", "static", "quasi-static", "dynamic", "kinematic")
+ANALYSES = ("modelInput", "initialConditions", "static", "quasiStatic", "dynamic", "kinematic")
 
 _CAUSES = ("preload", "reaction", "bending", "torsion")
 
@@ -227,6 +228,13 @@ class Result:
 
         columns = {"time": self.time, **dict(zip(self.channels, self.values))}
         return polars.DataFrame(columns)
+
+    @cached_property
+    def plot(self) -> Plots:
+        """Pictures: ``result.plot.friction("slide")``; they need matplotlib."""
+        from .plots import Plots
+
+        return Plots(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """Parts, joints and frictions over time: dimensions `time`, `part`, `joint` or `friction`, and

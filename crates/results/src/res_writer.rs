@@ -28,8 +28,9 @@ pub enum DataKind {
 impl DataKind {
     const COUNT: usize = 6;
 
-    /// Name before the number of the block.
-    fn name(self) -> &'static str {
+    /// Its name, in a `.res` before the number of the block: `initialConditions`, `dynamic`, ...
+    #[must_use]
+    pub const fn name(self) -> &'static str {
         match self {
             Self::ModelInput => "modelInput",
             Self::InitialConditions => "initialConditions",

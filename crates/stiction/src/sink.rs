@@ -37,3 +37,16 @@ pub trait Sink {
     /// What keeps it from taking the row, which ends the run.
     fn row(&mut self, kind: DataKind, time: f64, values: &[f64]) -> Result<(), OutputError>;
 }
+
+/// Several sinks, each of which is given everything.
+impl Sink for Vec<&mut dyn Sink> {
+    fn begin(&mut self, header: &Header, layout: &Layout) -> Result<(), OutputError> {
+        self.iter_mut()
+            .try_for_each(|sink| sink.begin(header, layout))
+    }
+
+    fn row(&mut self, kind: DataKind, time: f64, values: &[f64]) -> Result<(), OutputError> {
+        self.iter_mut()
+            .try_for_each(|sink| sink.row(kind, time, values))
+    }
+}

@@ -1,0 +1,172 @@
+//! A table that is filled row by row and written in batches, in several formats at once.
+
+use std::path::{Path, PathBuf};
+
+use parquet::data_type::ByteArray;
+use stiction::OutputError;
+
+use crate::csv::CsvFile;
+use crate::parquet_file::ParquetFile;
+use crate::{Format, wrong};
+
+/// Values of a table that are kept before they are written.
+const BATCH: usize = 1 << 20;
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Double,
+    Integer,
+    Text,
+}
+
+/// Name and kind of a column.
+pub(crate) struct Heading {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+}
+
+impl Heading {
+    pub(crate) fn new(name: &str, kind: Kind) -> Self {
+        Self {
+            name: name.to_owned(),
+            kind,
+        }
+    }
+}
+
+/// Values of a column.
+pub(crate) enum Values {
+    Double(Vec<f64>),
+    Integer(Vec<i32>),
+    Text(Vec<ByteArray>),
+}
+
+impl Values {
+    fn clear(&mut self) {
+        match self {
+            Self::Double(values) => values.clear(),
+            Self::Integer(values) => values.clear(),
+            Self::Text(values) => values.clear(),
+        }
+    }
+}
+
+/// A file of a table.
+pub(crate) trait TableFile {
+    /// Writes rows.
+    fn batch(&mut self, columns: &[Values], rows: usize) -> Result<(), String>;
+    /// Ends it, with facts about the run.
+    fn finish(self: Box<Self>, facts: &[(String, String)]) -> Result<(), String>;
+}
+
+/// A table with its files.
+pub(crate) struct Table {
+    columns: Vec<Values>,
+    rows: usize,
+    /// Rows of a batch.
+    most: usize,
+    /// Each with the name that it gets in the end.
+    files: Vec<(PathBuf, Box<dyn TableFile>)>,
+}
+
+/// The name of a file that is not whole yet.
+fn part(path: &Path) -> PathBuf {
+    path.with_added_extension("part")
+}
+
+impl Table {
+    /// Creates the files of a table.
+    pub(crate) fn create(
+        folder: &Path,
+        name: &str,
+        formats: &[Format],
+        headings: Vec<Heading>,
+    ) -> Result<Self, OutputError> {
+        let mut files = Vec::new();
+        for format in formats {
+            let extension = match format {
+                Format::Parquet => "parquet",
+                Format::Csv => "csv",
+            };
+            let path = folder.join(format!("{name}.{extension}"));
+            let created = std::fs::File::create(part(&path));
+            let file = created.map_err(|error| wrong(&path, &error))?;
+            let begun: Result<Box<dyn TableFile>, String> = match format {
+                Format::Parquet => {
+                    ParquetFile::new(file, &headings).map(|file| Box::new(file) as _)
+                }
+                Format::Csv => CsvFile::new(file, &headings).map(|file| Box::new(file) as _),
+            };
+            let begun = begun.map_err(|cause| wrong(&path, &cause))?;
+            files.push((path, begun));
+        }
+        let columns = headings.iter().map(|heading| match heading.kind {
+            Kind::Double => Values::Double(Vec::new()),
+            Kind::Integer => Values::Integer(Vec::new()),
+            Kind::Text => Values::Text(Vec::new()),
+        });
+        Ok(Self {
+            columns: columns.collect(),
+            rows: 0,
+            most: (BATCH / headings.len()).max(1),
+            files,
+        })
+    }
+
+    pub(crate) fn double(&mut self, column: usize, value: f64) {
+        if let Values::Double(values) = &mut self.columns[column] {
+            values.push(value);
+        }
+    }
+
+    pub(crate) fn integer(&mut self, column: usize, value: i32) {
+        if let Values::Integer(values) = &mut self.columns[column] {
+            values.push(value);
+        }
+    }
+
+    pub(crate) fn text(&mut self, column: usize, value: &ByteArray) {
+        if let Values::Text(values) = &mut self.columns[column] {
+            values.push(value.clone());
+        }
+    }
+
+    /// Counts a row whose columns are filled; writes a batch where it is full.
+    pub(crate) fn end_of_row(&mut self) -> Result<(), OutputError> {
+        self.rows += 1;
+        if self.rows == self.most {
+            self.write()?;
+        }
+        Ok(())
+    }
+
+    fn write(&mut self) -> Result<(), OutputError> {
+        for (path, file) in &mut self.files {
+            let written = file.batch(&self.columns, self.rows);
+            written.map_err(|cause| wrong(path, &cause))?;
+        }
+        self.columns.iter_mut().for_each(Values::clear);
+        self.rows = 0;
+        Ok(())
+    }
+
+    /// Writes the rest, ends the files and gives them their names.
+    pub(crate) fn finish(
+        mut self,
+        facts: &[(String, String)],
+    ) -> Result<Vec<PathBuf>, OutputError> {
+        if self.rows > 0 {
+            self.write()?;
+        }
+        let mut paths = Vec::new();
+        for (path, file) in self.files {
+            let ended = file.finish(facts);
+            ended.map_err(|cause| wrong(&path, &cause))?;
+            let named = std::fs::rename(part(&path), &path);
+            named.map_err(|error| wrong(&path, &error))?;
+            paths.push(path);
+        }
+        Ok(paths)
+    }
+}
