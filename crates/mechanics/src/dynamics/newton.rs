@@ -156,7 +156,13 @@ impl Dynamics {
                 factored.map_err(|singular| self.system.without_solution(singular))?;
                 self.factored = Some(gamma);
             }
-            self.factors.solve(&mut self.right);
+            if self.present == Index::StabilisedTwo {
+                self.position_lacks(gamma);
+                self.factors
+                    .solve_two(&mut self.right, &mut self.position_right);
+            } else {
+                self.factors.solve(&mut self.right);
+            }
             for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
                 *impulse += change;
             }
@@ -168,7 +174,6 @@ impl Dynamics {
                     self.positions_from_velocities(step)?;
                 }
                 Index::StabilisedTwo => {
-                    self.correct_positions(gamma);
                     for k in 0..moving {
                         self.state.velocities_mut()[k] += self.right[k];
                         self.shift[k] += self.position_right[k];

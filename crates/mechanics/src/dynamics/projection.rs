@@ -19,8 +19,8 @@ impl Dynamics {
         }
         self.system
             .velocity_lacks(self.state.velocities(), &mut self.right[n..]);
-        self.factors.solve(&mut self.position_right);
-        self.factors.solve(&mut self.right);
+        self.factors
+            .solve_two(&mut self.right, &mut self.position_right);
         self.state.displace(&self.position_right[..moving]);
         let mut largest = 0.0_f64;
         for k in 0..moving {

@@ -82,7 +82,7 @@ pub struct FrontalLu {
     rests: Vec<Rest>,
     rest_values: Vec<f64>,
     delayed: usize,
-    /// Right-hand side by row, and the part of it that a front works on.
+    /// Right-hand sides by row, side by side, and the part of them that a front works on.
     work: Vec<f64>,
     local: Vec<f64>,
 }
@@ -109,7 +109,7 @@ impl FrontalLu {
             rests: Vec::new(),
             rest_values: Vec::new(),
             delayed: 0,
-            work: vec![0.0; n],
+            work: Vec::new(),
             local: Vec::new(),
         }
     }
@@ -321,7 +321,7 @@ impl FrontalLu {
             multipliers.iter_mut().for_each(|m| *m *= inverse);
             for column in right.chunks_exact_mut(n) {
                 let (head, tail) = column.split_at_mut(k + 1);
-                subtract(tail, head[k], multipliers);
+                subtract(tail.as_chunks_mut::<1>().0, [head[k]], multipliers);
             }
             front.pivots += 1;
         }
@@ -366,28 +366,45 @@ impl FrontalLu {
     /// # Panics
     /// When `b` does not fit the factored matrix.
     pub fn solve(&mut self, b: &mut [f64]) {
-        assert_eq!(
-            b.len(),
-            self.work.len(),
+        self.solve_together([b]);
+    }
+
+    /// Replaces two right-hand sides by their solutions, in one pass over the factors.
+    ///
+    /// # Panics
+    /// When they do not fit the factored matrix.
+    pub fn solve_two(&mut self, a: &mut [f64], b: &mut [f64]) {
+        self.solve_together([a, b]);
+    }
+
+    fn solve_together<const N: usize>(&mut self, b: [&mut [f64]; N]) {
+        let n = self.row_scale.len();
+        assert!(
+            b.iter().all(|b| b.len() == n),
             "the right-hand side must fit the factored matrix"
         );
-        self.work.copy_from_slice(b);
+        self.work.resize(N * n, 0.0);
+        let work = self.work.as_chunks_mut::<N>().0;
+        for (k, values) in work.iter_mut().enumerate() {
+            *values = std::array::from_fn(|side| b[side][k]);
+        }
         for front in &self.eliminated {
             let rows = &self.rows[front.ids..front.ids + front.size];
             self.local.clear();
-            let values = rows.iter().map(|&row| self.work[row as usize]);
-            self.local.extend(values);
+            let values = rows.iter().map(|&row| work[row as usize]);
+            values.for_each(|values| self.local.extend_from_slice(&values));
+            let local = self.local.as_chunks_mut::<N>().0;
             let factors = &self.factors[front.factors..];
             for (k, column) in factors
                 .chunks_exact(front.size)
                 .take(front.pivots)
                 .enumerate()
             {
-                let (head, tail) = self.local.split_at_mut(k + 1);
+                let (head, tail) = local.split_at_mut(k + 1);
                 subtract(tail, head[k], &column[k + 1..]);
             }
-            for (&row, value) in rows.iter().zip(&self.local) {
-                self.work[row as usize] = *value;
+            for (&row, values) in rows.iter().zip(local) {
+                work[row as usize] = *values;
             }
         }
         for front in self.eliminated.iter().rev() {
@@ -395,21 +412,23 @@ impl FrontalLu {
             let (rows, columns) = (&self.rows[ids.clone()], &self.columns[ids]);
             let (own, border) = columns.split_at(front.pivots);
             self.local.clear();
-            let values = rows[..front.pivots]
-                .iter()
-                .map(|&row| self.work[row as usize]);
-            self.local.extend(values);
+            let values = rows[..front.pivots].iter().map(|&row| work[row as usize]);
+            values.for_each(|values| self.local.extend_from_slice(&values));
+            let local = self.local.as_chunks_mut::<N>().0;
             let (first, last) = self.factors[front.factors..].split_at(front.pivots * front.size);
             for (&column, above) in border.iter().zip(last.chunks_exact(front.pivots.max(1))) {
-                subtract(&mut self.local, b[column as usize], above);
+                let known = std::array::from_fn(|side| b[side][column as usize]);
+                subtract(local, known, above);
             }
             for (k, above) in first.chunks_exact(front.size).enumerate().rev() {
-                let (head, tail) = self.local.split_at_mut(k);
-                tail[0] *= above[k];
+                let (head, tail) = local.split_at_mut(k);
+                tail[0] = tail[0].map(|value| value * above[k]);
                 subtract(head, tail[0], &above[..k]);
             }
-            for (&column, value) in own.iter().zip(&self.local) {
-                b[column as usize] = *value;
+            for (&column, values) in own.iter().zip(local) {
+                for (side, value) in values.iter().enumerate() {
+                    b[side][column as usize] = *value;
+                }
             }
         }
     }
@@ -468,11 +487,13 @@ fn largest(values: &[f64]) -> f64 {
     largest.iter().fold(0.0, |m: f64, l| m.max(*l)) + check.iter().sum::<f64>()
 }
 
-/// Takes a multiple of `b` off `a`.
-fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
-    if factor != 0.0 {
+/// Takes multiples of `b` off every side of `a`.
+fn subtract<const N: usize>(a: &mut [[f64; N]], factors: [f64; N], b: &[f64]) {
+    if factors != [0.0; N] {
         for (a, b) in a.iter_mut().zip(b) {
-            *a -= factor * b;
+            for (a, factor) in a.iter_mut().zip(factors) {
+                *a -= factor * b;
+            }
         }
     }
 }
