@@ -10,9 +10,14 @@ use crate::state::{MarkerFrame, State};
 
 impl System {
     fn measure_frames(&self, measure: usize) -> [MarkerFrame; 4] {
-        self.model.measures[measure]
-            .markers()
-            .map(|m| self.marker(m))
+        // One by one: frames are large, and `map` would copy them.
+        let [i, j, k, l] = self.model.measures[measure].markers();
+        [
+            self.marker(i),
+            self.marker(j),
+            self.marker(k),
+            self.marker(l),
+        ]
     }
 
     /// Value of a measure of displacement or velocity; rotations are continuous over many turns.
