@@ -62,16 +62,20 @@ impl Dynamics {
         }
     }
 
-    /// Right-hand sides for the correction of positions beside that of velocities, which leaves
-    /// `g(x) ≠ 0`: as the matrix has it, it moves constraints by `γ` times what `right` lacks there.
-    pub(super) fn position_lacks(&mut self, gamma: f64) {
+    /// Corrects the positions where the velocities' correction leaves `g(x) ≠ 0`.
+    pub(super) fn correct_positions(&mut self, gamma: f64) {
         let n = self.system.rate_count();
         self.position_right.fill(0.0);
         for (row, &place) in self.system.rows.iter().enumerate() {
-            if self.system.constraints[place].level == Level::Position {
-                let error = self.system.evaluated[place].error;
-                self.position_right[n + row] = -error - gamma * self.right[n + row];
-            }
+            let evaluated = &self.system.evaluated[place];
+            let constraint = &self.system.constraints[place];
+            let moved = gamma * evaluated.rate_of(&constraint.bodies, &self.right[..n]);
+            self.position_right[n + row] = if constraint.level == Level::Position {
+                -evaluated.error - moved
+            } else {
+                0.0
+            };
         }
+        self.factors.solve(&mut self.position_right);
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-use super::adams::{error_integral, integrals};
+use super::adams::integrals;
 use super::history::MOST_NODES;
 use super::{Family, History, Step, System, Verdict};
 
@@ -89,46 +89,30 @@ pub enum Error<F> {
 /// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bdf {
-    settings: Settings,
-    values: History,
+    pub(super) settings: Settings,
+    pub(super) values: History,
     /// Slopes of the past, empty where the family needs none.
-    slopes: History,
-    order: usize,
-    size: f64,
+    pub(super) slopes: History,
+    pub(super) order: usize,
+    pub(super) size: f64,
     /// Order, step by step, has only risen since the last start.
-    starting: bool,
-    steps_at_order: usize,
-    last_size: f64,
-    last_gamma: f64,
-    statistics: Statistics,
-    formula: Vec<f64>,
-    prediction: Vec<f64>,
-    value: Vec<f64>,
+    pub(super) starting: bool,
+    pub(super) steps_at_order: usize,
+    pub(super) last_size: f64,
+    pub(super) last_gamma: f64,
+    pub(super) statistics: Statistics,
+    pub(super) formula: Vec<f64>,
+    pub(super) prediction: Vec<f64>,
+    pub(super) value: Vec<f64>,
     /// Slope of the new value.
-    slope: Vec<f64>,
+    pub(super) slope: Vec<f64>,
     /// Second derivatives of the newest value, for the formulas of Newmark.
-    curvature: Vec<f64>,
+    pub(super) curvature: Vec<f64>,
     /// What the error estimates come from: the new value less the prediction, of which the formulas of
     /// Newmark take their parts; with those of Adams, the divided difference of slopes whose order is
     /// that of the prediction.
-    error: Vec<f64>,
-    neighbour: Vec<f64>,
-}
-
-/// The formula of a step: `ẏ = (y − ŷ)/γ`.
-#[derive(Clone, Copy)]
-struct Formula {
-    gamma: f64,
-    position_gamma: f64,
-    /// Order of the prediction, that of the formula where the past allows it.
-    predictor: usize,
-}
-
-/// Error estimate at an order, and the step size that would just pass with a margin.
-#[derive(Clone, Copy)]
-struct Estimate {
-    error: f64,
-    size: f64,
+    pub(super) error: Vec<f64>,
+    pub(super) neighbour: Vec<f64>,
 }
 
 impl Bdf {
@@ -260,7 +244,7 @@ impl Bdf {
     }
 
     /// Degree of the polynomial through the last values, or through the last slopes.
-    fn degree(&self) -> usize {
+    pub(super) fn degree(&self) -> usize {
         let (wanted, history) = match self.settings.family {
             Family::BackwardDifferences => (self.order, &self.values),
             // One above the order: a free gift, and smoother.
@@ -274,113 +258,6 @@ impl Bdf {
     #[must_use]
     pub fn last_gamma(&self) -> f64 {
         self.last_gamma
-    }
-
-    /// Writes formula and prediction of a step to `time` at the present order.
-    fn formulate<S: System>(&mut self, system: &S, time: f64) -> Formula {
-        let order = self.order;
-        match self.settings.family {
-            Family::BackwardDifferences => {
-                let gamma = self.values.gamma(order, time);
-                let predictor = order.min(self.values.count() - 1);
-                self.values.formula(order, time, gamma, &mut self.formula);
-                self.values.evaluate(predictor, time, &mut self.prediction);
-                Formula {
-                    gamma,
-                    position_gamma: gamma,
-                    predictor,
-                }
-            }
-            Family::Adams => {
-                let predictor = order.min(self.slopes.count());
-                let mut weights = [0.0; MOST_NODES];
-                let nodes = self.slopes.nodes();
-                integrals(
-                    nodes,
-                    [self.time(), time],
-                    &mut weights[..=predictor.max(order - 1)],
-                );
-                self.values.evaluate(0, time, &mut self.prediction);
-                self.formula.copy_from_slice(&self.prediction);
-                let predicting = &weights[..predictor];
-                self.slopes.add_integral(predicting, &mut self.prediction);
-                let gamma = weights[order - 1] / self.slopes.product(order - 1, time);
-                for (j, weight) in weights[..order - 1].iter_mut().enumerate() {
-                    *weight -= gamma * self.slopes.product(j, time);
-                }
-                self.slopes
-                    .add_integral(&weights[..order - 1], &mut self.formula);
-                Formula {
-                    gamma,
-                    position_gamma: gamma,
-                    predictor,
-                }
-            }
-            Family::Newmark(newmark) => {
-                let size = time - self.time();
-                let (beta, gamma) = (newmark.beta, newmark.gamma);
-                let positions = system.positions();
-                let last = self.values.difference(0);
-                let slopes = self.slopes.difference(0);
-                for (k, (y, slope)) in last.iter().zip(slopes).enumerate() {
-                    self.prediction[k] = y + size * slope;
-                    self.formula[k] = y + size * (1.0 - gamma) * slope;
-                    if positions.contains(&k) {
-                        let bend = size * size * self.curvature[k];
-                        self.prediction[k] += 0.5 * bend;
-                        self.formula[k] =
-                            y + size * (1.0 - beta / gamma) * slope + (0.5 - beta / gamma) * bend;
-                    }
-                }
-                Formula {
-                    gamma: gamma * size,
-                    position_gamma: beta / gamma * size,
-                    predictor: order,
-                }
-            }
-        }
-    }
-
-    /// Takes what the error estimates come from at the value that the step was solved for.
-    fn take_error<S: System>(&mut self, system: &S, formula: Formula, time: f64) {
-        let step = Step {
-            time,
-            size: time - self.time(),
-            order: self.order,
-            gamma: formula.gamma,
-            position_gamma: formula.position_gamma,
-            history: &self.formula,
-            prediction: &self.prediction,
-        };
-        let pairs = self.value.iter().zip(&self.prediction);
-        match self.settings.family {
-            Family::BackwardDifferences => {
-                for (e, (v, p)) in self.error.iter_mut().zip(pairs) {
-                    *e = v - p;
-                }
-            }
-            Family::Newmark(newmark) => {
-                let positions = system.positions();
-                for (k, (e, (v, p))) in self.error.iter_mut().zip(pairs).enumerate() {
-                    let part = if positions.contains(&k) {
-                        newmark.error
-                    } else {
-                        newmark.slope_error
-                    };
-                    *e = part * (v - p);
-                }
-                system.slope(&step, &self.value, &mut self.slope);
-            }
-            Family::Adams => {
-                system.slope(&step, &self.value, &mut self.slope);
-                let degree = formula.predictor - 1;
-                self.slopes.evaluate(degree, time, &mut self.error);
-                let product = self.slopes.product(formula.predictor, time);
-                for (e, slope) in self.error.iter_mut().zip(&self.slope) {
-                    *e = (slope - *e) / product;
-                }
-            }
-        }
     }
 
     /// Takes one step, not beyond `stop`; none where the system abandons it.
@@ -500,205 +377,16 @@ impl Bdf {
         }
     }
 
-    fn highest_order(&self) -> usize {
+    pub(super) fn highest_order(&self) -> usize {
         let most = self.settings.family.highest_order();
         self.settings.highest_order.clamp(1, most)
     }
 
     /// Orders whose error the past allows to estimate.
-    fn known_orders(&self) -> usize {
+    pub(super) fn known_orders(&self) -> usize {
         match self.settings.family {
             Family::BackwardDifferences | Family::Newmark(_) => self.values.count() - 1,
             Family::Adams => self.slopes.count(),
         }
-    }
-
-    /// Values at `t` within a step to `time` that has been solved but not yet accepted.
-    fn within(&self, predictor: usize, time: f64, t: f64, out: &mut [f64]) {
-        match self.settings.family {
-            Family::BackwardDifferences => {
-                self.values.evaluate(predictor, t, out);
-                let count = predictor + 1;
-                let share = self.values.product(count, t) / self.values.product(count, time);
-                for (out, error) in out.iter_mut().zip(&self.error) {
-                    *out += share * error;
-                }
-            }
-            Family::Adams => {
-                let (mut weights, mut ends) = ([0.0; MOST_NODES], [0.0; MOST_NODES]);
-                let nodes = self.slopes.nodes();
-                integrals(nodes, [self.time(), t], &mut weights[..=predictor]);
-                integrals(nodes, [self.time(), time], &mut ends[..=predictor]);
-                // The polynomial through the slopes, and what is left at the end.
-                let share = (t - self.time()) / (time - self.time());
-                for (weight, end) in weights.iter_mut().zip(ends) {
-                    *weight -= share * end;
-                }
-                for ((out, new), old) in out
-                    .iter_mut()
-                    .zip(&self.value)
-                    .zip(self.values.difference(0))
-                {
-                    *out = old + share * (new - old);
-                }
-                self.slopes.add_integral(&weights[..predictor], out);
-                for (out, difference) in out.iter_mut().zip(&self.error) {
-                    *out += weights[predictor] * difference;
-                }
-            }
-            Family::Newmark(_) => {
-                // Hermite's cubic through both ends.
-                let size = time - self.time();
-                let s = (t - self.time()) / size;
-                let old = self.values.difference(0);
-                let slopes = self.slopes.difference(0).iter().zip(&self.slope);
-                let ends = old.iter().zip(&self.value);
-                for (out, ((a, b), (da, db))) in out.iter_mut().zip(ends.zip(slopes)) {
-                    let bend = size * ((1.0 - s) * da - s * db) + (2.0 * s - 1.0) * (b - a);
-                    *out = a + s * (b - a) + s * (1.0 - s) * bend;
-                }
-            }
-        }
-    }
-
-    fn lower_order(&mut self) {
-        if self.order > 1 {
-            self.order -= 1;
-            self.steps_at_order = 0;
-        }
-    }
-
-    /// Error that the formula of order `k` would have made.
-    fn estimate<S: System>(
-        &mut self,
-        system: &S,
-        predictor: usize,
-        k: usize,
-        time: f64,
-        size: f64,
-    ) -> Estimate {
-        let error = match self.settings.family {
-            Family::BackwardDifferences => self.backward_error(system, predictor, k, time),
-            Family::Adams => self.adams_error(system, predictor, k, time),
-            Family::Newmark(_) => system.norm(&self.error),
-        };
-        // A margin of two in the error; never more than a factor of ten per step.
-        let size = size
-            * (2.0 * error)
-                .max(1e-12)
-                .powf(-1.0 / (k + 1) as f64)
-                .min(10.0);
-        Estimate { error, size }
-    }
-
-    /// Error of backward differences, from the difference between the new value and the extrapolation
-    /// through `k + 1` past nodes.
-    ///
-    /// The local error is `y − p_k` times `γ_k / (t − t_k)`: both are the same divided difference
-    /// of order `k + 1`, multiplied by `Π_{i≤k}(t − t_i)` in one and by `γ_k Π_{i<k}(t − t_i)` in
-    /// the other.
-    fn backward_error<S: System>(
-        &mut self,
-        system: &S,
-        predictor: usize,
-        k: usize,
-        time: f64,
-    ) -> f64 {
-        let constant = self.values.gamma(k, time) / (time - self.values.node(k));
-        if k == predictor {
-            return constant * system.norm(&self.error);
-        }
-        let (j, sign) = if k < predictor {
-            (predictor, 1.0)
-        } else {
-            (k, -1.0)
-        };
-        let weight = sign * self.values.product(j, time);
-        let difference = self.values.difference(j);
-        for ((n, e), d) in self.neighbour.iter_mut().zip(&self.error).zip(difference) {
-            *n = e + weight * d;
-        }
-        constant * system.norm(&self.neighbour)
-    }
-
-    /// Error of the formula of Adams and Moulton of order `k`: the divided difference of order `k` of
-    /// the slopes times its `error_integral`.
-    fn adams_error<S: System>(&mut self, system: &S, predictor: usize, k: usize, time: f64) -> f64 {
-        let constant = error_integral(self.slopes.nodes(), k, time);
-        let (scale, j, weight) = if k == predictor {
-            (constant, 0, 0.0)
-        } else if k < predictor {
-            (constant * (time - self.slopes.node(k)), k, constant)
-        } else {
-            let span = time - self.slopes.node(predictor);
-            (constant / span, predictor, -constant / span)
-        };
-        let difference = self.slopes.difference(j);
-        for ((n, e), d) in self.neighbour.iter_mut().zip(&self.error).zip(difference) {
-            *n = scale * e + weight * d;
-        }
-        system.norm(&self.neighbour)
-    }
-
-    /// Step and order for the next step, after an accepted one.
-    fn choose(
-        &mut self,
-        size: f64,
-        predictor: usize,
-        below: Option<Estimate>,
-        here: Estimate,
-        above: Option<Estimate>,
-    ) {
-        self.steps_at_order += 1;
-        if self.starting {
-            let falling = below.is_none_or(|below| here.error < below.error);
-            let growth = here.size / size;
-            if growth > 1.0 && falling {
-                // The error of a start is that of its first formulas: grow while it allows.
-                let largest = if self.values.count() < 4 { 8.0 } else { 2.0 };
-                self.size = size * growth.min(largest);
-                if predictor == self.order
-                    && self.order < self.highest_order()
-                    && self.known_orders() > self.order
-                {
-                    self.order += 1;
-                    self.steps_at_order = 0;
-                }
-                return;
-            }
-            self.starting = false;
-        }
-        self.size = size;
-        let lower = below.filter(|below| below.error <= here.error || below.size > 1.2 * here.size);
-        if let Some(below) = lower {
-            self.lower_order();
-            self.resize(below.size / size);
-            return;
-        }
-        if self.steps_at_order <= self.order {
-            // Raising waits until the past was taken at this order and size; shrinking does not.
-            self.resize((here.size / size).min(1.0));
-            return;
-        }
-        if let Some(above) = above.filter(|above| above.size > 1.2 * here.size) {
-            self.order += 1;
-            self.steps_at_order = 0;
-            self.resize(above.size / size);
-            return;
-        }
-        self.resize(here.size / size);
-    }
-
-    /// Changes the step only when it pays: a kept size keeps the factorisation.
-    fn resize(&mut self, ratio: f64) {
-        let ratio = if ratio >= 1.3 {
-            self.steps_at_order = 0;
-            ratio.min(2.0)
-        } else if ratio < 0.95 {
-            ratio.max(0.3)
-        } else {
-            1.0
-        };
-        self.size *= ratio;
     }
 }

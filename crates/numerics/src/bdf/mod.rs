@@ -17,6 +17,8 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 mod adams;
+mod control;
+mod formulas;
 mod history;
 mod integrator;
 #[cfg(test)]

@@ -1,0 +1,167 @@
+//! A step as the integrator asks for it: attempts from cheap to sure, the error test, and what an
+//! accepted step leaves behind.
+
+use std::ops::Range;
+
+use numerics::bdf::{self, Verdict, Within};
+
+use super::scales::raise;
+use super::{Dynamics, INDEX3_STEPS, Index, MatrixUse};
+use crate::instant::Failure;
+use crate::state::{POSITIONS, VELOCITIES};
+
+/// A kept Newton matrix serves while γ stays within this part of its own.
+const GAMMA_RANGE: f64 = 0.25;
+/// A kept Newton matrix is renewed when the iteration got slower than this.
+const SLOW_RATE: f64 = 0.07;
+
+impl bdf::System for Dynamics {
+    type Failure = Failure;
+
+    fn solve(&mut self, step: &bdf::Step<'_>, y: &mut [f64]) -> Result<(), Failure> {
+        self.switching.attempt(step.size, self.steps[1]);
+        self.left_of_velocities = self.left_of_velocities(step);
+        let stale = self
+            .factored
+            .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
+        let mut usage = if stale || self.rate > SLOW_RATE || self.switching.slides() {
+            MatrixUse::Renewed
+        } else {
+            MatrixUse::Kept
+        };
+        self.present = if self.index3_left > 0 {
+            Index::Three
+        } else {
+            self.formulation.index()
+        };
+        loop {
+            let solved = self.load(step, y, usage);
+            let Err(failure) = solved.and_then(|()| self.newton(step, usage)) else {
+                break;
+            };
+            usage = match (usage, &failure) {
+                (MatrixUse::Kept, _) => MatrixUse::Renewed,
+                (MatrixUse::Renewed, Failure::NotConverged { .. }) => MatrixUse::RenewedAlways,
+                // Where the mechanism passes a position at which constraints depend on others,
+                // velocity constraints are nearly singular, positions alone are not.
+                (_, Failure::NotConverged { .. } | Failure::Singular(_))
+                    if self.present == Index::StabilisedTwo =>
+                {
+                    self.present = Index::Three;
+                    self.index3_left = INDEX3_STEPS;
+                    MatrixUse::Renewed
+                }
+                _ => {
+                    self.rate = 1.0;
+                    self.factored = None;
+                    return Err(failure);
+                }
+            };
+        }
+        if self.present != self.formulation.index() {
+            self.work.index3_steps += 1;
+            self.index3_left -= 1;
+            if self.index3_left == 0 {
+                // The matrix does not fit the next step.
+                self.factored = None;
+            }
+        }
+        for (multiplier, impulse) in self.multipliers.iter_mut().zip(&self.impulses) {
+            *multiplier = impulse / step.gamma;
+        }
+        self.complete(step);
+        y.copy_from_slice(&self.state.values);
+        Ok(())
+    }
+
+    fn norm(&self, difference: &[f64]) -> f64 {
+        let bodies = self.system.model.bodies.len();
+        let (length, rate) = (self.scales.length, self.scales.rate);
+        let mut norm = 0.0_f64;
+        for (k, d) in difference[..POSITIONS * bodies].iter().enumerate() {
+            // A rotation is twice the change of its quaternion.
+            let unit = if k % POSITIONS < 3 { length } else { 0.5 };
+            norm = norm.max(d.abs() / unit);
+            // `max` would pass over what is not a number.
+            if d.is_nan() {
+                return f64::NAN;
+            }
+        }
+        if self.present != Index::Three || self.formulation.tests_velocities() {
+            let velocities = POSITIONS * bodies..self.state.motions();
+            for (k, d) in difference[velocities].iter().enumerate() {
+                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
+                norm = norm.max(d.abs() / (unit * (rate + self.left_of_velocities)));
+            }
+        }
+        let states = &difference[self.state.state_range()];
+        for ((d, scale), now) in states
+            .iter()
+            .zip(&self.state_scales)
+            .zip(self.state.states())
+        {
+            norm = norm.max(d.abs() / scale.max(now.abs()));
+            if d.is_nan() {
+                return f64::NAN;
+            }
+        }
+        norm /= self.tolerance;
+        let bristles = &difference[self.state.bristle_range()];
+        for (d, error) in bristles.iter().zip(&self.bristle_errors) {
+            if *error > 0.0 {
+                norm = norm.max(d.abs() / error);
+            }
+        }
+        norm.max(self.switching.norm(&difference[self.state.share_range()]))
+    }
+
+    fn slope(&self, step: &bdf::Step<'_>, y: &[f64], slope: &mut [f64]) {
+        step.write_slope(y, slope);
+        self.state.write_position_slopes(y, slope);
+        slope[self.state.rate_range()].copy_from_slice(&self.rates);
+        slope[self.state.work_range()].copy_from_slice(&self.powers);
+    }
+
+    fn positions(&self) -> Range<usize> {
+        0..POSITIONS * self.state.bodies()
+    }
+
+    fn curvature(&self, y: &[f64], slope: &[f64], curvature: &mut [f64]) {
+        self.state.write_position_curvatures(y, slope, curvature);
+    }
+
+    fn judge(&mut self, step: &bdf::Step<'_>, values: &[f64], within: Within<'_>) -> Verdict {
+        if self.switching.is_empty() {
+            return Verdict::Accept;
+        }
+        let mut switching = std::mem::take(&mut self.switching);
+        let verdict = switching.judge(self, step, values, within);
+        self.switching = switching;
+        verdict
+    }
+
+    fn accepted(&mut self, step: &bdf::Step<'_>, _: &[f64]) {
+        // The step solved last is the one accepted: everything is evaluated there.
+        self.quadrature
+            .accept(step.time, self.state.works(), &self.powers);
+        self.past_multipliers.push(step.time, &self.multipliers);
+        if self.formulation.alpha() != 0.0 {
+            // M u̇/(1 + α) = F + lag F₀ has been solved.
+            self.system.mass_times(&self.rates, &mut self.momentum);
+            let (inertia, lag) = (self.inertia_part(), self.lag());
+            for (force, momentum) in self.past_force.iter_mut().zip(&self.momentum) {
+                *force = inertia * momentum - lag * *force;
+            }
+        }
+        self.previous.clone_from(&self.system.history.frictions);
+        self.system.accept_frictions(&self.multipliers, step.size);
+        self.system.remember_angles();
+        self.scales.observe(self.state.velocities());
+        raise(&mut self.state_scales, self.state.states());
+        if !self.switching.is_empty() {
+            self.switching.accepted(&mut self.system);
+            self.switching
+                .begin(self.rates.iter().copied(), &self.multipliers);
+        }
+    }
+}
