@@ -88,7 +88,11 @@ impl Dynamics {
         for (scale, change) in self.state_scales.iter().zip(changes) {
             norm = norm.max(change.abs() / scale);
         }
-        norm / self.tolerance
+        // Near a singular position no iteration comes as close as index 3 wants it elsewhere.
+        match self.formulation.index() {
+            Index::One | Index::StabilisedTwo => norm / self.error,
+            Index::Three => norm / self.tolerance(),
+        }
     }
 
     /// What the iteration leaves of velocities that follow from positions, in units of the error of
@@ -108,7 +112,7 @@ impl Dynamics {
         match self.formulation.index() {
             Index::One | Index::StabilisedTwo => 0.0,
             Index::Three => {
-                let left = MARGIN * INDEX3_NEWTON_TOLERANCE * self.tolerance;
+                let left = MARGIN * INDEX3_NEWTON_TOLERANCE * self.tolerance();
                 left / (step.size * self.scales.rate).powi(2)
             }
         }

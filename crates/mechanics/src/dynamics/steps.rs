@@ -105,7 +105,7 @@ impl bdf::System for Dynamics {
                 return f64::NAN;
             }
         }
-        norm /= self.tolerance;
+        norm /= self.tolerance();
         let bristles = &difference[self.state.bristle_range()];
         for (d, error) in bristles.iter().zip(&self.bristle_errors) {
             if *error > 0.0 {

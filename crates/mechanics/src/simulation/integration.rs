@@ -12,10 +12,6 @@ use crate::instant::{Failure, Instant};
 use crate::model::Label;
 use crate::state::POSITIONS;
 
-/// Part of the error tolerance that the positions of index 3 may use. Its test leaves velocities out,
-/// which lose an order; with this part they, too, stay near the tolerance.
-const INDEX3_SHARE: f64 = 0.1;
-
 /// Change of the place of a body where a function jumps, in units of the error: what finding the jump
 /// leaves is below it.
 const PLACE_JUMP: f64 = 10.0;
@@ -112,10 +108,7 @@ impl Simulation {
         self.refuse_jam(jam)?;
         self.system.observe_loads(&self.multipliers);
         dynamics.start(&self.system, settings.formulation, self.scales);
-        dynamics.tolerance = match settings.formulation.index() {
-            Index::One | Index::StabilisedTwo => settings.error,
-            Index::Three => INDEX3_SHARE * settings.error,
-        };
+        dynamics.error = settings.error;
         dynamics.newton_iterations = settings.newton_iterations;
         dynamics.steps = [settings.shortest_step, settings.longest_step];
         dynamics.observe(&self.state, end);

@@ -16,3 +16,4 @@ mod oracle;
 mod redundancy;
 mod runs;
 mod shared;
+mod singular;

@@ -358,7 +358,7 @@ impl Dynamics {
             rate: self.scales.rate,
             states: &self.state_scales,
         };
-        self.tolerance * self.system.switch_unit(place, &units)
+        self.tolerance() * self.system.switch_unit(place, &units)
     }
 
     /// A motion or constraint whose function jumps here.
