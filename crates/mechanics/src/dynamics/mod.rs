@@ -137,8 +137,11 @@ pub(crate) struct Dynamics {
     prescribed: Vec<f64>,
     change: Vec<f64>,
     force: Vec<f64>,
-    /// Forces at the last accepted step, where HHT reads them.
+    /// Forces at the last accepted step less `M u̇` there, where HHT reads them,
     past_force: Vec<f64>,
+    /// the rates there, and those times the present `M`.
+    past_rates: Vec<f64>,
+    past_inertia: Vec<f64>,
     /// Rates of velocities and differential states that the step was solved with.
     rates: Vec<f64>,
     momentum: Vec<f64>,
@@ -186,6 +189,8 @@ impl Dynamics {
             change: vec![0.0; n],
             force: vec![0.0; n],
             past_force: vec![0.0; n],
+            past_rates: vec![0.0; n],
+            past_inertia: vec![0.0; n],
             rates: vec![0.0; n],
             momentum: vec![0.0; n],
             right: vec![0.0; size],
@@ -249,11 +254,16 @@ impl Dynamics {
     /// Takes over the rates of velocities and states of the instant that a run begins at.
     pub(crate) fn start_rates(&mut self, rates: &[f64]) {
         if self.formulation.alpha() != 0.0 {
-            self.system.mass_times(rates, &mut self.past_force);
+            // Forces and inertia are in balance.
+            self.past_force.fill(0.0);
+            self.past_rates.copy_from_slice(rates);
         }
     }
 
-    /// What multiplies the inertia forces: `M u̇/(1 + α) = F − α/(1 + α) F₀` with HHT.
+    /// What multiplies the inertia forces: `M u̇/(1 + α) = F − α/(1 + α) (F₀ + (M − M₀) u̇₀)` with HHT.
+    ///
+    /// HHT has accelerations of the time `t + αh`. So `M` must be that of then, too, which for bodies
+    /// that turn in space is `M + α (M − M₀)`; with `M` alone the method is of first order only.
     fn inertia_part(&self) -> f64 {
         1.0 / (1.0 + self.formulation.alpha())
     }

@@ -38,8 +38,12 @@ impl Dynamics {
         self.system.mass_times(&self.change, &mut self.momentum);
         self.system.forces(&self.trial, &mut self.force);
         let (inertia, lag) = (self.inertia_part(), self.lag());
+        if lag != 0.0 {
+            self.system
+                .mass_times(&self.past_rates, &mut self.past_inertia);
+        }
         for k in 0..n {
-            let force = self.force[k] + lag * self.past_force[k];
+            let force = self.force[k] + lag * (self.past_force[k] + self.past_inertia[k]);
             self.right[k] = gamma * force - inertia * self.momentum[k];
         }
         if self.present == Index::One || self.system.prescribes_accelerations() {

@@ -146,12 +146,16 @@ impl bdf::System for Dynamics {
             .accept(step.time, self.state.works(), &self.powers);
         self.past_multipliers.push(step.time, &self.multipliers);
         if self.formulation.alpha() != 0.0 {
-            // M u̇/(1 + α) = F + lag F₀ has been solved.
+            // M u̇/(1 + α) = F + lag (F₀ + (M − M₀) u̇₀) has been solved.
             self.system.mass_times(&self.rates, &mut self.momentum);
+            self.system
+                .mass_times(&self.past_rates, &mut self.past_inertia);
             let (inertia, lag) = (self.inertia_part(), self.lag());
-            for (force, momentum) in self.past_force.iter_mut().zip(&self.momentum) {
-                *force = inertia * momentum - lag * *force;
+            let before = self.past_force.iter_mut().zip(&self.past_inertia);
+            for ((force, past), now) in before.zip(&self.momentum) {
+                *force = inertia * now - lag * (*force + past) - now;
             }
+            self.past_rates.copy_from_slice(&self.rates);
         }
         self.previous.clone_from(&self.system.history.frictions);
         self.system.accept_frictions(&self.multipliers, step.size);

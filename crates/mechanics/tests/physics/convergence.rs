@@ -9,7 +9,9 @@ use nalgebra::Vector3;
 use verification::{Case, Section, check};
 
 use crate::runs::{assembled, go_on, settings};
+use mechanisms::builder::v;
 use mechanisms::pendulum;
+use mechanisms::turning::ball_pendulum;
 
 const END: f64 = 2.0;
 
@@ -147,4 +149,23 @@ fn methods_of_second_order_and_formulas_of_adams_converge_with_their_order() {
         }
     }
     check(&claims);
+}
+
+#[test]
+fn hht_is_of_second_order_for_bodies_that_turn_in_space() {
+    // The inertia of a tilted body along ground axes changes as it turns.
+    let model = ball_pendulum(std::f64::consts::FRAC_PI_3, v(0.5, 2.0, 8.0), None);
+    let place = |formulation, error, longest_step| {
+        let mut simulation = assembled(model.clone());
+        let settings = settings(formulation, error, longest_step);
+        go_on(&mut simulation, &[1.0], &settings, |_| {});
+        simulation.state().centre(0)
+    };
+    let exact = place(Formulation::Si2, 1e-11, 0.01);
+    let hht = Formulation::Hht { alpha: -0.3 };
+    // An error that just does not limit the step, so that Newton's iteration leaves less.
+    let errors = [2e-3, 1e-3].map(|h| (place(hht, 2.5 * h * h, h) - exact).norm());
+    let order = (errors[0] / errors[1]).log2();
+    println!("HHT in space: errors {errors:?}, order {order:.3}");
+    assert!((order - 2.0).abs() < 0.2, "{order}");
 }
