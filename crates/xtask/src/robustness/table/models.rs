@@ -240,14 +240,19 @@ fn load_of(kind: JointKind, length: f64) -> Option<FrictionJoint> {
     })
 }
 
-/// Weights and velocities larger by a part `part`.
+/// Weights, velocities, the inertia of all bodies about their x axes and the mass of every second one
+/// larger by a part `part`.
 pub(super) fn disturbed(mut model: Model, part: f64) -> Model {
     let more = 1.0 + part;
     model.gravity *= more;
     let scale = |v: &mut Vector3<f64>| *v *= more;
-    for body in &mut model.bodies {
+    for (place, body) in model.bodies.iter_mut().enumerate() {
         scale(&mut body.velocity);
         scale(&mut body.angular_velocity);
+        body.inertia[(0, 0)] *= more;
+        if place % 2 == 0 {
+            body.mass *= more;
+        }
     }
     for joint in &mut model.joints {
         for start in [&mut joint.translation_start, &mut joint.rotation_start] {
