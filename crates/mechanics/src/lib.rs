@@ -119,8 +119,8 @@ pub use gain::Jam;
 pub use instant::Failure;
 pub use joint_friction::{Memory, SurfaceVector, Tally, Values as FrictionValues};
 pub use simulation::{
-    Ending, ForeignState, Observer, Paused, RunError, SavedState, Settings, Simulation, Statistics,
-    StepReport, gravity_energy, kinetic_energy,
+    Cause, Ending, ForeignState, Observer, Paused, RunError, SavedState, Settings, Simulation,
+    Statistics, StepReport, gravity_energy, kinetic_energy,
 };
 pub use snapshot::{Snapshot, Wrench};
 pub use system::{History, System};

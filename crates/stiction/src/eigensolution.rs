@@ -111,7 +111,7 @@ impl Runner<'_> {
                 time,
                 message: error.to_string(),
                 element: None,
-                jammed: false,
+                cause: mechanics::Cause::NotLinear,
             })
         })?;
         let cycles = second(&self.dataset) / std::f64::consts::TAU;

@@ -2,7 +2,7 @@
 
 use dataset::{Code, Dataset, Severity, Source};
 use mechanics::model::Label;
-use mechanics::{AssemblyError, RunError};
+use mechanics::{AssemblyError, Cause, RunError};
 
 use crate::about::about;
 use crate::message::Message;
@@ -40,12 +40,46 @@ pub(crate) fn of_assembly(dataset: &Dataset, source: &Source, error: &AssemblyEr
 
 /// The code of an error of a run: a jam has its own.
 fn code_of(error: &RunError, otherwise: Code) -> Code {
-    if error.jammed { Code::Jam } else { otherwise }
+    match error.cause {
+        Cause::Jam => Code::Jam,
+        _ => otherwise,
+    }
+}
+
+/// What may help a run that stopped.
+fn cure(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Jam => {
+            "less friction, a longer overlap or a smaller arm of this joint makes the gain smaller"
+        }
+        Cause::Singular => {
+            "look at the last results: a mechanism cannot be driven beyond its reach, and parts that \
+             move need mass and inertia"
+        }
+        Cause::NotConverged => {
+            "look at the functions and stiffnesses of this element; a smaller ERROR or HMAX, or a \
+             larger MAXIT, may help"
+        }
+        Cause::NotANumber => {
+            "keep the arguments of SQRT, LOG, ASIN, ACOS and powers in their range, and divisors from \
+             zero"
+        }
+        Cause::Inaccurate => {
+            "look at the last results; give a smaller HMIN or a larger ERROR, and a width to what \
+             jumps, as by STEP"
+        }
+        Cause::JumpOfPlace => "give the jump a width, as by STEP",
+        Cause::NoEquilibrium => "hold what is free by a joint or a spring, or start nearer to rest",
+        Cause::NotLinear => "linearise at another position",
+    }
 }
 
 /// Accelerations and reactions that cannot be found at the start.
 pub(crate) fn of_start(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
-    let help = "look at the functions, masses and joints of this element at the start";
+    let help = match error.cause {
+        Cause::Jam | Cause::NotANumber => cure(error.cause),
+        _ => "look at the functions, masses and joints of this element at the start",
+    };
     let element = error.element.as_ref();
     let text = error.to_string();
     message(
@@ -61,7 +95,7 @@ pub(crate) fn of_start(dataset: &Dataset, source: &Source, error: &RunError) -> 
 /// An equilibrium that was not found.
 pub(crate) fn of_equilibrium(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
     let text = format!("the static solution stopped {error}");
-    let help = "the results up to then are kept";
+    let help = format!("{}; the results up to then are kept", cure(error.cause));
     let element = error.element.as_ref();
     message(
         dataset,
@@ -69,7 +103,7 @@ pub(crate) fn of_equilibrium(dataset: &Dataset, source: &Source, error: &RunErro
         code_of(error, Code::Equilibrium),
         text,
         element,
-        help,
+        &help,
     )
 }
 
@@ -84,7 +118,7 @@ pub(crate) fn of_linearization(dataset: &Dataset, source: &Source, error: &RunEr
 /// An integration that stopped.
 pub(crate) fn of_run(dataset: &Dataset, source: &Source, error: &RunError) -> Message {
     let text = format!("the integration stopped {error}");
-    let help = "the results up to then are kept";
+    let help = format!("{}; the results up to then are kept", cure(error.cause));
     let element = error.element.as_ref();
     message(
         dataset,
@@ -92,6 +126,6 @@ pub(crate) fn of_run(dataset: &Dataset, source: &Source, error: &RunError) -> Me
         code_of(error, Code::Integration),
         text,
         element,
-        help,
+        &help,
     )
 }

@@ -30,6 +30,7 @@
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
 
 mod formulation;
+mod local_error;
 mod newton;
 mod positions;
 mod projection;

@@ -8,7 +8,7 @@ use numerics::bdf::{self, Verdict, Within};
 use super::scales::raise;
 use super::{Dynamics, INDEX3_STEPS, Index, MatrixUse};
 use crate::instant::Failure;
-use crate::state::{POSITIONS, VELOCITIES};
+use crate::state::POSITIONS;
 
 /// A kept Newton matrix serves while γ stays within this part of its own.
 const GAMMA_RANGE: f64 = 0.25;
@@ -75,44 +75,7 @@ impl bdf::System for Dynamics {
     }
 
     fn norm(&self, difference: &[f64]) -> f64 {
-        let bodies = self.system.model.bodies.len();
-        let (length, rate) = (self.scales.length, self.scales.rate);
-        let mut norm = 0.0_f64;
-        for (k, d) in difference[..POSITIONS * bodies].iter().enumerate() {
-            // A rotation is twice the change of its quaternion.
-            let unit = if k % POSITIONS < 3 { length } else { 0.5 };
-            norm = norm.max(d.abs() / unit);
-            // `max` would pass over what is not a number.
-            if d.is_nan() {
-                return f64::NAN;
-            }
-        }
-        if self.present != Index::Three || self.formulation.tests_velocities() {
-            let velocities = POSITIONS * bodies..self.state.motions();
-            for (k, d) in difference[velocities].iter().enumerate() {
-                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
-                norm = norm.max(d.abs() / (unit * (rate + self.left_of_velocities)));
-            }
-        }
-        let states = &difference[self.state.state_range()];
-        for ((d, scale), now) in states
-            .iter()
-            .zip(&self.state_scales)
-            .zip(self.state.states())
-        {
-            norm = norm.max(d.abs() / scale.max(now.abs()));
-            if d.is_nan() {
-                return f64::NAN;
-            }
-        }
-        norm /= self.tolerance();
-        let bristles = &difference[self.state.bristle_range()];
-        for (d, error) in bristles.iter().zip(&self.bristle_errors) {
-            if *error > 0.0 {
-                norm = norm.max(d.abs() / error);
-            }
-        }
-        norm.max(self.switching.norm(&difference[self.state.share_range()]))
+        self.largest_error(difference).0
     }
 
     fn slope(&self, step: &bdf::Step<'_>, y: &[f64], slope: &mut [f64]) {

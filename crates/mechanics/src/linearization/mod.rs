@@ -42,7 +42,7 @@ use nalgebra::DMatrix;
 
 pub use modes::{Mode, ModesError};
 
-use crate::simulation::{RunError, Simulation};
+use crate::simulation::{Cause, RunError, Simulation};
 use coordinates::Coordinates;
 use derivatives::{Bristles, turned};
 
@@ -125,7 +125,7 @@ impl Simulation {
                           cannot be linearised"
                         .to_owned(),
                 element: None,
-                jammed: false,
+                cause: Cause::NotLinear,
             });
         };
         let (n, rate) = (&basis.value, &basis.rate);

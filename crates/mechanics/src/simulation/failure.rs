@@ -1,8 +1,9 @@
 //! What stopped a run, in mechanical words.
 
-use numerics::bdf;
+use numerics::bdf::{self, Bdf};
 
-use super::{RunError, Simulation};
+use super::{Cause, RunError, Simulation};
+use crate::dynamics::Dynamics;
 use crate::gain::{GainWatch, Jam};
 use crate::instant::{Failure, Instant};
 
@@ -30,7 +31,7 @@ impl Simulation {
             time: self.state.time,
             message: self.explain(failure),
             element: self.system.element_of(failure).cloned(),
-            jammed: false,
+            cause: cause_of(failure),
         }
     }
 
@@ -60,7 +61,12 @@ impl Simulation {
         }
     }
 
-    pub(super) fn run_error(&self, error: &bdf::Error<Failure>) -> RunError {
+    pub(super) fn run_error(
+        &self,
+        error: &bdf::Error<Failure>,
+        dynamics: &Dynamics,
+        bdf: &Bdf,
+    ) -> RunError {
         match error {
             bdf::Error::Failed { time, cause } => RunError {
                 time: *time,
@@ -69,19 +75,33 @@ impl Simulation {
                     self.explain(cause)
                 ),
                 element: self.system.element_of(cause).cloned(),
-                jammed: false,
+                cause: cause_of(cause),
             },
-            bdf::Error::Inaccurate { time, size } => RunError {
-                time: *time,
-                message: format!(
-                    "the error tolerance cannot be met with the shortest step allowed (the last \
-                     try was {size:.3e}); likely causes: a discontinuous function, or forces that \
-                     change faster than HMIN resolves"
-                ),
-                element: None,
-                jammed: false,
-            },
+            bdf::Error::Inaccurate { time, size } => {
+                let (_, worst) = dynamics.largest_error(bdf.error());
+                let (place, element) = dynamics.describe_value(worst);
+                RunError {
+                    time: *time,
+                    message: format!(
+                        "the error tolerance cannot be met with the shortest step allowed (the \
+                         last try was {size:.3e}); the error is largest in {place}; likely \
+                         causes: a discontinuous function, a position where the mechanism \
+                         locks, or forces that change faster than HMIN resolves"
+                    ),
+                    element,
+                    cause: Cause::Inaccurate,
+                }
+            }
         }
+    }
+}
+
+fn cause_of(failure: &Failure) -> Cause {
+    match failure {
+        Failure::Singular(_) => Cause::Singular,
+        Failure::NotConverged { .. } | Failure::TurnsTooFar { .. } => Cause::NotConverged,
+        Failure::NotANumber { .. } => Cause::NotANumber,
+        Failure::NoEquilibrium { .. } => Cause::NoEquilibrium,
     }
 }
 
@@ -94,6 +114,6 @@ pub(super) fn jammed(time: f64, jam: &Jam) -> RunError {
             jam.friction, jam.gain
         ),
         element: Some(jam.friction.clone()),
-        jammed: true,
+        cause: Cause::Jam,
     }
 }

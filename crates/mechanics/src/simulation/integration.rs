@@ -4,8 +4,9 @@ use std::borrow::Borrow;
 
 use numerics::bdf::{self, Bdf, Family};
 
+use super::blocked::Blocked;
 use super::failure::jammed;
-use super::report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
+use super::report::{Cause, Ending, Observer, RunError, Settings, Statistics, StepReport};
 use super::{Crossing, Engine, Simulation};
 use crate::dynamics::{Dynamics, Index, Sliding, Work};
 use crate::instant::{Failure, Instant};
@@ -143,6 +144,8 @@ impl Simulation {
         let outputs = outputs.into_iter().map(|time| *time.borrow());
         let mut outputs = outputs.peekable();
         let mut ending = Ending::Completed;
+        let mut shown = bdf.time();
+        let mut blocked = None;
         while bdf.time() < end && ending == Ending::Completed {
             let start = bdf.time();
             let advanced = bdf.advance(dynamics, end);
@@ -155,11 +158,22 @@ impl Simulation {
                 // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
                 // has only positions to meet.
                 let further = bdf.time() > crossing.from;
-                if settings.formulation.index() == Index::Three || !further {
+                let gives_up = settings.formulation.index() == Index::Three || !further;
+                if !crossing.goes_on {
                     let jam = gains.explain(&mut dynamics.system, &dynamics.multipliers);
-                    return Err(
-                        jam.map_or_else(|| self.run_error(&error), |jam| jammed(bdf.time(), &jam))
+                    let error = jam.map_or_else(
+                        || self.run_error(&error, dynamics, bdf),
+                        |jam| jammed(bdf.time(), &jam),
                     );
+                    let solved = self.take(bdf, dynamics, bdf.time(), instant).is_ok();
+                    blocked = Some(Blocked::new(error, self, solved));
+                }
+                if gives_up {
+                    return Err(match blocked {
+                        Some(blocked) => self.go_back(blocked, shown, observer),
+                        // A run that was resumed while it crossed.
+                        None => self.run_error(&error, dynamics, bdf),
+                    });
                 }
                 bdf.set_settings(bdf::Settings {
                     family: Family::BackwardDifferences,
@@ -191,6 +205,7 @@ impl Simulation {
             };
             while let Some(output) = outputs.next_if(|time| *time <= bdf.time()) {
                 self.take(bdf, dynamics, output, instant)?;
+                shown = output;
                 if !observer.output(&self.snapshot()) {
                     ending = Ending::Stopped;
                     break;
@@ -292,7 +307,7 @@ impl Simulation {
                  nothing can follow; give the jump a width, as by STEP"
             ),
             element: Some(element.clone()),
-            jammed: false,
+            cause: Cause::JumpOfPlace,
         })
     }
 

@@ -1,5 +1,6 @@
 //! A model run through time: assembly, dynamics between output times, snapshots.
 
+mod blocked;
 mod energy;
 mod failure;
 mod integration;
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub use energy::{gravity_energy, kinetic_energy};
 pub use paused::Paused;
-pub use report::{Ending, Observer, RunError, Settings, Statistics, StepReport};
+pub use report::{Cause, Ending, Observer, RunError, Settings, Statistics, StepReport};
 pub use saved::{ForeignState, SavedState};
 
 use crate::assembly::{Assembly, AssemblyError};

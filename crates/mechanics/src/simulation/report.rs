@@ -56,7 +56,7 @@ pub struct StepReport {
 pub trait Observer {
     /// After every accepted step; false stops the run.
     fn step(&mut self, report: &StepReport) -> bool;
-    /// At every output time; false stops the run.
+    /// At every output time, and at the last good state of a run that fails; false stops the run.
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool;
     /// Whether the run is to pause here, after a step and its outputs.
     fn pauses(&mut self) -> bool {
@@ -84,8 +84,29 @@ pub struct RunError {
     pub message: String,
     /// The element that it is about, where there is one.
     pub element: Option<Label>,
-    /// Whether friction jams there: the friction that a load causes adds more to it than there was.
-    pub jammed: bool,
+    /// Why it cannot go on.
+    pub cause: Cause,
+}
+
+/// Why a run cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// Friction jams: the friction that a load causes adds more to it than there was.
+    Jam,
+    /// The equations have no unique solution.
+    Singular,
+    /// Newton's iteration did not converge.
+    NotConverged,
+    /// A function or a reaction is not a finite number.
+    NotANumber,
+    /// The error tolerance cannot be met with the shortest step.
+    Inaccurate,
+    /// A function jumps, and with it the place of a body.
+    JumpOfPlace,
+    /// Friction and forces leave nothing that holds the model.
+    NoEquilibrium,
+    /// There is no linear model at this position.
+    NotLinear,
 }
 
 impl std::fmt::Display for RunError {

@@ -21,6 +21,17 @@ impl System {
             .sum()
     }
 
+    /// The friction that a deflection belongs to.
+    pub(crate) fn friction_of_bristle(&self, deflection: usize) -> usize {
+        let mut end = 0;
+        (0..self.model.frictions.len())
+            .find(|&place| {
+                end += self.bristles_of(place);
+                deflection < end
+            })
+            .expect("every deflection belongs to a friction")
+    }
+
     fn bristles_of(&self, friction: usize) -> usize {
         let friction = &self.model.frictions[friction];
         match friction.law {

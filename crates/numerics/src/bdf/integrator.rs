@@ -203,6 +203,12 @@ impl Bdf {
         self.last_size
     }
 
+    /// Estimate of the error of the last step tried, value by value.
+    #[must_use]
+    pub fn error(&self) -> &[f64] {
+        &self.error
+    }
+
     /// Order of the next step.
     #[must_use]
     pub fn order(&self) -> usize {

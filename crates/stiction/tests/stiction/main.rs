@@ -19,6 +19,7 @@ mod differential;
 mod energy;
 mod examples;
 mod explain;
+mod failing;
 mod functions;
 mod instants;
 mod invariance;

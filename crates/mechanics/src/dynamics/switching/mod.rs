@@ -286,6 +286,11 @@ impl Switching {
         shares.iter().fold(0.0_f64, |norm, d| norm.max(d.abs())) / SHARE_ERROR
     }
 
+    /// The element whose function has the switch of a share.
+    pub(super) fn element<'a>(&self, share: usize, system: &'a System) -> &'a Label {
+        system.switch_label(self.switches[share].place)
+    }
+
     /// Lets another system evaluate the instant of `state` as it is: free, but for those switches
     /// that are held at their jump, and those that were turned over here, on whose new side it is.
     pub(super) fn lend(&self, state: &State, system: &mut System) {

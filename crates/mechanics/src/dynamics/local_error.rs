@@ -1,0 +1,101 @@
+//! The error of a step against the tolerance, and where it is largest.
+
+use super::{Dynamics, Index};
+use crate::model::Label;
+use crate::state::{POSITIONS, VELOCITIES};
+
+/// The largest of some sizes and its place; what is not a number stays.
+struct Largest {
+    size: f64,
+    place: usize,
+}
+
+impl Largest {
+    fn take(&mut self, size: f64, place: usize) {
+        if size > self.size || size.is_nan() {
+            (self.size, self.place) = (size, place);
+        }
+    }
+}
+
+impl Dynamics {
+    /// The largest part of a difference of states, in units of the error that a step may make, and its
+    /// place among the values.
+    pub(crate) fn largest_error(&self, difference: &[f64]) -> (f64, usize) {
+        let places = POSITIONS * self.system.model.bodies.len();
+        let (length, rate) = (self.scales.length, self.scales.rate);
+        let mut largest = Largest {
+            size: 0.0,
+            place: 0,
+        };
+        let tolerance = self.tolerance;
+        for (k, d) in difference[..places].iter().enumerate() {
+            // A rotation is twice the change of its quaternion.
+            let unit = if k % POSITIONS < 3 { length } else { 0.5 };
+            largest.take(d.abs() / (unit * tolerance), k);
+        }
+        if self.present != Index::Three || self.formulation.tests_velocities() {
+            let velocities = &difference[places..self.state.motions()];
+            for (k, d) in velocities.iter().enumerate() {
+                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
+                let scale = unit * (rate + self.left_of_velocities);
+                largest.take(d.abs() / (scale * tolerance), places + k);
+            }
+        }
+        let states = self.state.state_range();
+        let scales = self.state_scales.iter().zip(self.state.states());
+        for ((k, d), (scale, now)) in states.clone().zip(&difference[states]).zip(scales) {
+            largest.take(d.abs() / (scale.max(now.abs()) * tolerance), k);
+        }
+        let bristles = self.state.bristle_range();
+        let errors = bristles.clone().zip(&difference[bristles]);
+        for ((k, d), error) in errors.zip(&self.bristle_errors) {
+            if *error > 0.0 {
+                largest.take(d.abs() / error, k);
+            }
+        }
+        for k in self.state.share_range() {
+            largest.take(self.switching.norm(&difference[k..=k]), k);
+        }
+        (largest.size, largest.place)
+    }
+
+    /// What a place among the values means, and the element that it belongs to.
+    pub(crate) fn describe_value(&self, place: usize) -> (String, Option<Label>) {
+        let model = &self.system.model;
+        let motion = |body: usize, kind: &str, component: &str| {
+            let label = &model.bodies[body].label;
+            (format!("{label}, {kind} {component}"), Some(label.clone()))
+        };
+        let axis = |k: usize| ["X", "Y", "Z"][k % 3];
+        let places = POSITIONS * model.bodies.len();
+        if place < places {
+            return match place % POSITIONS {
+                k @ 0..3 => motion(place / POSITIONS, "position", axis(k)),
+                _ => motion(place / POSITIONS, "orientation", ""),
+            };
+        }
+        if place < self.state.motions() {
+            let k = place - places;
+            let kind = if k % VELOCITIES < 3 {
+                "velocity"
+            } else {
+                "rotation about"
+            };
+            return motion(k / VELOCITIES, kind, axis(k));
+        }
+        let of = |label: &Label| (label.to_string(), Some(label.clone()));
+        let (states, bristles) = (self.state.state_range(), self.state.bristle_range());
+        if states.contains(&place) {
+            return of(&model.states[place - states.start].label);
+        }
+        if bristles.contains(&place) {
+            let friction = self.system.friction_of_bristle(place - bristles.start);
+            let (name, label) = of(&model.frictions[friction].label);
+            return (format!("the bristles of {name}"), label);
+        }
+        let share = place - self.state.share_range().start;
+        let (name, label) = of(self.switching.element(share, &self.system));
+        (format!("where a function of {name} jumps"), label)
+    }
+}
