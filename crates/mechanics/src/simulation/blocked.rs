@@ -8,13 +8,7 @@ use crate::system::History;
 /// Where a run could not go on in the way it was asked to, and why. Steps may go on in another way from
 /// there; when these fail too, what they reached is not good.
 pub(super) struct Blocked {
-    error: RunError,
-    /// None where the instant itself has no solution.
-    solved: Option<Solved>,
-}
-
-/// A solved instant.
-struct Solved {
+    why: RunError,
     state: State,
     accelerations: Vec<f64>,
     multipliers: Vec<f64>,
@@ -22,16 +16,14 @@ struct Solved {
 }
 
 impl Blocked {
-    /// Keeps the present instant of `simulation`, where it is solved.
-    pub(super) fn new(error: RunError, simulation: &Simulation, solved: bool) -> Self {
+    /// Keeps the present instant of `simulation`, which is solved.
+    pub(super) fn new(why: RunError, simulation: &Simulation) -> Self {
         Self {
-            error,
-            solved: solved.then(|| Solved {
-                state: simulation.state.clone(),
-                accelerations: simulation.accelerations.clone(),
-                multipliers: simulation.multipliers.clone(),
-                history: simulation.system.history.clone(),
-            }),
+            why,
+            state: simulation.state.clone(),
+            accelerations: simulation.accelerations.clone(),
+            multipliers: simulation.multipliers.clone(),
+            history: simulation.system.history.clone(),
         }
     }
 }
@@ -45,13 +37,13 @@ impl Simulation {
         shown: f64,
         observer: &mut impl Observer,
     ) -> RunError {
-        if let Some(solved) = blocked.solved.filter(|solved| solved.state.time > shown) {
-            self.state = solved.state;
-            self.accelerations = solved.accelerations;
-            self.multipliers = solved.multipliers;
-            self.system.history = solved.history;
+        if blocked.state.time > shown {
+            self.state = blocked.state;
+            self.accelerations = blocked.accelerations;
+            self.multipliers = blocked.multipliers;
+            self.system.history = blocked.history;
             observer.output(&self.snapshot());
         }
-        blocked.error
+        blocked.why
     }
 }

@@ -159,20 +159,17 @@ impl Simulation {
                 // has only positions to meet.
                 let further = bdf.time() > crossing.from;
                 let gives_up = settings.formulation.index() == Index::Three || !further;
-                if !crossing.goes_on {
-                    let jam = gains.explain(&mut dynamics.system, &dynamics.multipliers);
-                    let error = jam.map_or_else(
-                        || self.run_error(&error, dynamics, bdf),
-                        |jam| jammed(bdf.time(), &jam),
-                    );
-                    let solved = self.take(bdf, dynamics, bdf.time(), instant).is_ok();
-                    blocked = Some(Blocked::new(error, self, solved));
-                }
+                let mut why = self.run_error(&error, dynamics, bdf);
                 if gives_up {
+                    if let Some(jam) = gains.explain(&mut dynamics.system, &dynamics.multipliers) {
+                        why = jammed(bdf.time(), &jam);
+                    }
+                    if !crossing.goes_on && self.take(bdf, dynamics, bdf.time(), instant).is_ok() {
+                        blocked = Some(Blocked::new(why.clone(), self));
+                    }
                     return Err(match blocked {
                         Some(blocked) => self.go_back(blocked, shown, observer),
-                        // A run that was resumed while it crossed.
-                        None => self.run_error(&error, dynamics, bdf),
+                        None => why,
                     });
                 }
                 bdf.set_settings(bdf::Settings {
@@ -180,6 +177,9 @@ impl Simulation {
                     ..limits(settings)
                 });
                 self.restart(bdf, dynamics, instant, settings)?;
+                if !crossing.goes_on {
+                    blocked = Some(Blocked::new(why, self));
+                }
                 dynamics.cross();
                 *crossing = Crossing {
                     from: bdf.time(),
