@@ -28,7 +28,7 @@ impl Dynamics {
             size: 0.0,
             place: 0,
         };
-        let tolerance = self.tolerance;
+        let tolerance = self.tolerance();
         for (k, d) in difference[..places].iter().enumerate() {
             // A rotation is twice the change of its quaternion.
             let unit = if k % POSITIONS < 3 { length } else { 0.5 };

@@ -255,7 +255,9 @@ SIMULATE/DYNAMIC, END=3, STEPS=4
     );
     assert_eq!(log.matches("START: ERROR").count(), 1, "{log}");
     assert!(!log.contains("Finished -----"));
-    assert_eq!(results.block("dynamic_002").unwrap().times, [1.25]);
+    // The output before, and the last good state.
+    let times = &results.block("dynamic_002").unwrap().times;
+    assert_eq!(*times, [1.25, failure.time]);
     assert_eq!(results.status.as_deref(), Some("Integration failed"));
     let stopping = commands.replacen("VARIABLE", "PREF/SIMFAIL=STOPCF\nVARIABLE", 1);
     let project = Project::load(&with_commands("stops", &stopping)).unwrap();
