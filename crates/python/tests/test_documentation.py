@@ -1,4 +1,4 @@
-"""The examples of docs/python.md print what stands there, and those of docstrings."""
+"""The examples of docs/python.md print what stands there, and those of README.md and docstrings run."""
 
 import doctest
 import re
@@ -25,6 +25,17 @@ def test_the_page_prints_what_it_says(monkeypatch: pytest.MonkeyPatch) -> None:
         with redirect_stdout(said):
             exec(code, names)
         assert said.getvalue().rstrip() == expected.rstrip()
+
+
+def test_the_readme_prints_and_plots(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    [(code, _)] = BLOCKS.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+    exec(code, {})
+    assert "mean" in capsys.readouterr().out
+    assert (tmp_path / "friction.svg").stat().st_size > 1000
 
 
 @pytest.mark.parametrize("module", [stiction, stiction.laws, stiction.units])

@@ -44,6 +44,13 @@ const LESSONS: [Lesson; 8] = [
                   part of hardly any mass move within the shortest step, a millionth of the longest.",
     },
     Lesson {
+        words: "the energy is off",
+        title: "**Energy beyond the tolerance**",
+        teaches: "With position constraints only (I3, HHT) no error test sees velocities. Strong friction \
+                  that stops a mechanism within its first steps, while it moves by less than ERROR, loses \
+                  its energy uncounted.",
+    },
+    Lesson {
         words: "off by",
         title: "Redundant equations have become independent",
         teaches: "An equation that depended on others where the mechanism was assembled does not do so \
@@ -55,13 +62,6 @@ const LESSONS: [Lesson; 8] = [
         title: "**Too many steps**",
         teaches: "Bristles that are faster than they are passive for (`v > 4 G/s1`, which the message file \
                   names) are ill-posed, and an error test that sees velocities follows every jitter.",
-    },
-    Lesson {
-        words: "the energy is off",
-        title: "**Energy beyond the tolerance**",
-        teaches: "With position constraints only (I3, HHT) no error test sees velocities. Strong friction \
-                  that stops a mechanism within its first steps, while it moves by less than ERROR, loses \
-                  its energy uncounted.",
     },
 ];
 
