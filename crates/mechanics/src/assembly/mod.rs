@@ -35,9 +35,11 @@ const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_6;
 const EXACT_WEIGHT: f64 = 1e10;
 /// Corrections of the initial velocities, at most.
 const VELOCITY_PASSES: usize = 6;
-/// Weight of velocities that nobody gave, against one for those given: beside a weight above one the
-/// number on the diagonal of the multipliers would count for as much more.
-const FREE_WEIGHT: f64 = 1e-6;
+/// Weight of velocities that were given, against one for the others.
+const GIVEN_WEIGHT: f64 = 1e4;
+/// Diagonal of the multipliers there: beside such a weight that of positions would count for as much more.
+/// (Small weights for the others, which would do the same, are no pivots: fronts then grow along chains.)
+const VELOCITY_REGULARISATION: f64 = 1e-12;
 /// Where steps no longer lessen the error, that number grows up to this.
 const LARGEST_REGULARISATION: f64 = 1.0;
 
@@ -168,7 +170,7 @@ impl System {
             .iter()
             .flat_map(|body| body.given_velocity);
         weights
-            .map(|given| if given { 1.0 } else { FREE_WEIGHT })
+            .map(|given| if given { GIVEN_WEIGHT } else { 1.0 })
             .collect()
     }
 
@@ -275,7 +277,7 @@ impl System {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let size = largest(&wanted).max(largest(&right));
         let solve = |least: &mut Least, wanted: &[f64], right: &[f64]| {
-            let solved = least.solve(&rows, weights, wanted, right, REGULARISATION);
+            let solved = least.solve(&rows, weights, wanted, right, VELOCITY_REGULARISATION);
             solved.map_err(|singular| self.out_of_scale(singular))
         };
         let mut velocities = solve(&mut least, &wanted, &right)?;
