@@ -54,7 +54,7 @@ pub(crate) fn section(root: &Path, quick: bool) -> Result<String, String> {
     let program = build(root)?;
     let mut text =
         "## Whole runs of the program\n\nWall time from start to exit, all results written.\n\n\
-                    | run | ms | aimed at | |\n|---|---|---|---|\n"
+                    | run | median, ms | least, ms | aimed at | |\n|---|---|---|---|---|\n"
             .to_owned();
     for run in runs(root) {
         let times = wall_times(&program, &run, if quick { 1 } else { RUNS })?;
