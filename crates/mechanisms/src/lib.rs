@@ -30,6 +30,7 @@ pub mod chains;
 mod cross;
 mod governor;
 mod linkages;
+mod load;
 mod random;
 mod rigid;
 mod sleeve;
@@ -44,6 +45,7 @@ pub use governor::governor;
 pub use linkages::{
     bricard, driven_slider_crank, four_bar, four_bar_chain, slider_crank, slider_crank_with_pins,
 };
+pub use load::joint_load;
 pub use random::{RandomMechanism, random};
 pub use rigid::{free_body, pendulum, top};
 pub use sleeve::Sleeve;

@@ -22,7 +22,7 @@ impl Simulation {
     /// (the last of which should be `end`), which are asked for one by one.
     ///
     /// # Errors
-    /// [`RunError`]; the state is then that of the last good output.
+    /// [`RunError`]; the state is then the last good one that could be solved.
     pub fn run(
         &mut self,
         end: f64,

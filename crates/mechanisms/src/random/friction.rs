@@ -1,12 +1,10 @@
 //! Random friction.
 
-use friction::{
-    CylindricalLoad, Effect, Inputs, LuGre, Original, RevoluteLoad, SphericalLoad,
-    TranslationalLoad,
-};
+use friction::{Effect, Inputs, LuGre, Original};
 use mechanics::model::{ForceAndTorque, FrictionJoint, JointKind, Law, Pin};
 
 use super::Draft;
+use crate::load::joint_load;
 
 /// Part of the joints that have friction.
 const SHARE: f64 = 0.7;
@@ -90,44 +88,19 @@ impl Draft {
         let length = self.units.length;
         let mut size = || length * self.numbers.decades(-2.5, -0.7);
         let arms = [0; 3].map(|_| size());
-        let inputs = Inputs::ALL;
-        let pin = RevoluteLoad {
-            inputs,
-            pin_radius: arms[0],
-            friction_arm: arms[1],
-            bending_reaction_arm: length,
-        };
-        Some(match kind {
-            JointKind::Revolute => FrictionJoint::Revolute(pin),
-            JointKind::Translational => FrictionJoint::Translational(TranslationalLoad {
-                inputs,
-                reaction_arm: length,
-                bending_factor: 0.5,
-                initial_overlap: length,
-                overlap_sign: 0.0,
-            }),
-            JointKind::Cylindrical => FrictionJoint::Cylindrical(CylindricalLoad {
-                inputs,
-                pin_radius: arms[0],
-                bending_factor: 0.5,
-                initial_overlap: length,
-                overlap_sign: 0.0,
-            }),
-            JointKind::Spherical => FrictionJoint::Spherical(SphericalLoad {
-                inputs,
-                ball_radius: arms[0],
-            }),
-            JointKind::Hooke => FrictionJoint::Pin(
+        let load = joint_load(kind, Inputs::ALL, length, arms[0], arms[1])?;
+        Some(match load {
+            FrictionJoint::Pin(Pin::HookeI, pin) => FrictionJoint::Pin(
                 self.numbers
                     .choose(&[(1.0, Pin::HookeI), (1.0, Pin::HookeJ)]),
                 pin,
             ),
-            JointKind::Universal => FrictionJoint::Pin(
+            FrictionJoint::Pin(Pin::UniversalI, pin) => FrictionJoint::Pin(
                 self.numbers
                     .choose(&[(1.0, Pin::UniversalI), (1.0, Pin::UniversalJ)]),
                 pin,
             ),
-            _ => return None,
+            load => load,
         })
     }
 }

@@ -1,12 +1,8 @@
 //! The mechanisms of the table, and friction in their joints.
 
-use friction::{
-    CylindricalLoad, Inputs, LuGre, Original, RevoluteLoad, SphericalLoad, TranslationalLoad,
-};
+use friction::{Inputs, LuGre, Original};
 use mechanics::Simulation;
-use mechanics::model::{
-    ForceAndTorque, Friction, FrictionJoint, JointKind, Label, Law, Model, Pin,
-};
+use mechanics::model::{ForceAndTorque, Friction, FrictionJoint, JointKind, Label, Law, Model};
 use mechanisms::builder::v;
 use mechanisms::turning::{Pendulum, ball_pendulum, rotor, unbalanced_rotor};
 use nalgebra::Vector3;
@@ -208,36 +204,7 @@ fn load_of(kind: JointKind, length: f64) -> Option<FrictionJoint> {
         torsional_moment: false,
         ..Inputs::ALL
     };
-    let pin = RevoluteLoad {
-        inputs,
-        pin_radius: 0.05 * length,
-        friction_arm: 0.05 * length,
-        bending_reaction_arm: length,
-    };
-    Some(match kind {
-        JointKind::Revolute => FrictionJoint::Revolute(pin),
-        JointKind::Translational => FrictionJoint::Translational(TranslationalLoad {
-            inputs,
-            reaction_arm: length,
-            bending_factor: 0.5,
-            initial_overlap: length,
-            overlap_sign: 0.0,
-        }),
-        JointKind::Cylindrical => FrictionJoint::Cylindrical(CylindricalLoad {
-            inputs,
-            pin_radius: 0.05 * length,
-            bending_factor: 0.5,
-            initial_overlap: length,
-            overlap_sign: 0.0,
-        }),
-        JointKind::Spherical => FrictionJoint::Spherical(SphericalLoad {
-            inputs,
-            ball_radius: 0.05 * length,
-        }),
-        JointKind::Hooke => FrictionJoint::Pin(Pin::HookeI, pin),
-        JointKind::Universal => FrictionJoint::Pin(Pin::UniversalI, pin),
-        _ => return None,
-    })
+    mechanisms::joint_load(kind, inputs, length, 0.05 * length, 0.05 * length)
 }
 
 /// Weights, velocities, the inertia of all bodies about their x axes and the mass of every second one
