@@ -40,6 +40,14 @@ pub(crate) enum Command {
     /// With --at why it was what it was at that time: load, coefficient, and the share of preload,
     /// reaction force, bending and torsion.
     Explain(ExplainArguments),
+    /// Draw what friction did in a run, as SVG or PNG
+    ///
+    /// Reads the .res that a run has written. Kinds: friction, each friction over time with its regimes
+    /// below; regime, when frictions are stuck, in transition or sliding; loop, friction against the
+    /// velocity of its surfaces or how far they have moved (--x); share, friction by its causes as
+    /// stacked areas; energy, the energy balance of the model over time. docs/plots.md shows them. A
+    /// file that is there is replaced only with --force.
+    Plot(PlotArguments),
     /// Lay datasets and command files out anew, without changing what they say
     ///
     /// In a dataset the head of a statement and each argument get a line of their own; a command
@@ -176,15 +184,70 @@ pub(crate) struct ExplainArguments {
     /// Folder of a run, or the .res in it
     #[arg(value_name = "RUN_DIR")]
     pub(crate) run: PathBuf,
-    /// Id of the FRICTION
+    /// Id or name of the FRICTION, or of its joint: 103, SLIDE, JOINT/28
     #[arg(long, value_name = "ID")]
-    pub(crate) friction: Option<u32>,
+    pub(crate) friction: Option<String>,
     /// The output nearest to this time, in the unit of time of the model
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(crate) at: Option<f64>,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(crate) format: Format,
+}
+
+/// Draw what friction did in a run.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:
+  stiction plot pendulum-run --friction 103 -o pin.svg
+  stiction plot slider-run --friction GUIDE --kind loop --x displacement -o loop.png
+  stiction plot delta-run --kind regime -o regimes.svg
+  stiction plot delta-run --kind energy -o energy.svg",
+    after_long_help = EXIT_CODES
+)]
+pub(crate) struct PlotArguments {
+    /// Folder of a run, or the .res in it
+    #[arg(value_name = "RUN_DIR")]
+    pub(crate) run: PathBuf,
+    /// File to write: .svg or .png
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// What to draw
+    #[arg(long, value_enum, default_value_t = PlotKind::Friction)]
+    pub(crate) kind: PlotKind,
+    /// Id or name of the FRICTION, or of its joint: 103, SLIDE, JOINT/28; may be repeated [default: all]
+    #[arg(long = "friction", value_name = "ID")]
+    pub(crate) frictions: Vec<String>,
+    /// What a loop is drawn against [default: velocity]
+    #[arg(long, value_enum)]
+    pub(crate) x: Option<LoopAxis>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// What to draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlotKind {
+    /// Each friction over time, its regimes below.
+    Friction,
+    /// When frictions are stuck, in transition or sliding.
+    Regime,
+    /// Each friction against what its surfaces do.
+    Loop,
+    /// Each friction by its causes, as stacked areas.
+    Share,
+    /// The energy balance of the model over time.
+    Energy,
+}
+
+/// What a loop is drawn against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LoopAxis {
+    /// The velocity of the surfaces.
+    Velocity,
+    /// How far they have moved.
+    Displacement,
 }
 
 /// Lay datasets and command files out anew, without changing what they say.

@@ -26,8 +26,8 @@ fn answer(arguments: &ExplainArguments) -> Result<String, ExplainError> {
     let run = RunResults::open(&arguments.run)?;
     let text = arguments.format == Format::Text;
     let written = |value: &Value| format!("{value:#}\n");
-    let ids = match arguments.friction {
-        Some(id) => vec![id],
+    let ids = match &arguments.friction {
+        Some(name) => vec![run.find(name)?],
         None => run.frictions()?,
     };
     if let Some(time) = arguments.at {
@@ -42,7 +42,7 @@ fn answer(arguments: &ExplainArguments) -> Result<String, ExplainError> {
     }
     let histories = ids.iter().map(|id| run.history(*id));
     let histories = histories.collect::<Result<Vec<_>, _>>()?;
-    Ok(match (text, arguments.friction) {
+    Ok(match (text, &arguments.friction) {
         (true, Some(_)) => histories.iter().map(ToString::to_string).collect(),
         (true, None) => overview(&histories),
         (false, _) => {
@@ -54,7 +54,7 @@ fn answer(arguments: &ExplainArguments) -> Result<String, ExplainError> {
 
 /// The value of the one friction asked for, or the list of all.
 fn one_or_all(arguments: &ExplainArguments, mut values: Vec<Value>) -> Value {
-    match arguments.friction {
+    match &arguments.friction {
         Some(_) => values.remove(0),
         None => Value::Array(values),
     }

@@ -8,6 +8,7 @@ mod exit;
 mod explain;
 mod file;
 mod fmt;
+mod plot;
 mod progress;
 mod record;
 mod replace;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
         Command::Convert(arguments) => convert::convert(&arguments),
         Command::Fmt(arguments) => fmt::fmt(&arguments),
     };

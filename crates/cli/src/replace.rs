@@ -18,8 +18,17 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     };
     let mut builder = tempfile::Builder::new();
     let permissions: Option<Permissions> = old.map(|old| old.permissions());
-    if let Some(permissions) = &permissions {
-        builder.permissions(permissions.clone());
+    match &permissions {
+        Some(permissions) => {
+            builder.permissions(permissions.clone());
+        }
+        // A new file is for whom files are of who makes it, not for its maker alone.
+        #[cfg(unix)]
+        None => {
+            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        }
+        #[cfg(not(unix))]
+        None => {}
     }
     // Without the name of the other file, which means nothing to anybody.
     let file = builder.tempfile_in(folder);

@@ -617,7 +617,7 @@ fn explain_tells_where_the_friction_came_from() {
         (&["."], "there is no .res in"),
         (
             &["p-run", "--friction", "7"],
-            "there is no FRICTION/7; there is FRICTION/103",
+            "there is no friction \"7\"; there is FRICTION/103 in JOINT/1",
         ),
         (&["p-run", "--at", "3"], "goes from 0 to 2"),
         (&["p.adm"], "p.adm"),
@@ -630,14 +630,135 @@ fn explain_tells_where_the_friction_came_from() {
             errors(&output)
         );
     }
-    assert_eq!(
-        code(&stiction(&folder, &["explain", "p-run", "--friction", "x"])),
-        2
-    );
+    // A joint means its friction.
+    assert_eq!(said(&["p-run", "--friction", "joint/1"]), history);
     let help = stiction(&folder, &["explain", "--help"]);
     let help = String::from_utf8_lossy(&help.stdout).into_owned();
     assert!(
         help.contains("--friction") && help.contains("--at") && help.contains("130"),
         "{help}"
     );
+}
+
+#[test]
+fn plot_draws_what_friction_did() {
+    let named = PENDULUM
+        .replace("JOINT/1,", "!   adams_view_name='PIN'\nJOINT/1,")
+        .replace(
+            "FRICTION/103,",
+            "!   adams_view_name='PIN_FRICTION'\nFRICTION/103,",
+        );
+    let folder = folder("plot", &[("p.adm", named.as_str())]);
+    let run = ["run", "p.adm", "--end", "1", "--dtout", "0.01"];
+    assert_eq!(code(&stiction(&folder, &run)), 0);
+    let draw = |arguments: &[&str]| stiction(&folder, &[&["plot", "p-run"], arguments].concat());
+    let friction = "FRICTION/103 (PIN_FRICTION) in JOINT/1 (PIN)";
+    let torque = "friction torque (newton-meter)";
+    for (kind, words) in [
+        ("friction", &[friction, torque, "time (sec)", "stuck"][..]),
+        ("regime", &[friction, "time (sec)", "sliding"]),
+        (
+            "loop",
+            &[friction, torque, "velocity of the surfaces (meter/sec)"],
+        ),
+        (
+            "share",
+            &[friction, "friction by cause (newton-meter)", "bending"],
+        ),
+        (
+            "energy",
+            &["energy (newton-meter)", "potential (weight)", "residual"],
+        ),
+    ] {
+        let (svg, png) = (format!("{kind}.svg"), format!("{kind}.png"));
+        for file in [&svg, &png] {
+            let output = draw(&["--kind", kind, "-o", file]);
+            assert_eq!(code(&output), 0, "{kind}: {}", errors(&output));
+        }
+        let text = std::fs::read_to_string(folder.join(svg)).unwrap();
+        for word in words {
+            // A text stands on a line of its own.
+            assert!(text.lines().any(|line| line == *word), "{kind}: {word}");
+        }
+        let png = std::fs::read(folder.join(png)).unwrap();
+        assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
+        // Something is drawn: white alone takes next to nothing.
+        assert!(png.len() > 10_000, "{kind}: {}", png.len());
+    }
+    let way = draw(&["--kind", "loop", "--x", "displacement", "-o", "way.svg"]);
+    assert_eq!(code(&way), 0);
+    let text = std::fs::read_to_string(folder.join("way.svg")).unwrap();
+    assert!(text.contains("displacement of the surfaces (meter)"));
+    // By any of its names; twice in one picture has two panels.
+    let both = draw(&["--friction", "pin", "--friction", "103", "-o", "both.svg"]);
+    assert_eq!(code(&both), 0, "{}", errors(&both));
+    let text = std::fs::read_to_string(folder.join("both.svg")).unwrap();
+    assert_eq!(text.lines().filter(|line| *line == friction).count(), 2);
+
+    for (arguments, status, words) in [
+        (
+            &["-o", "both.svg"][..],
+            2,
+            "both.svg is there already; --force replaces it",
+        ),
+        (&["-o", "p.pdf"], 2, "neither in .svg nor in .png"),
+        (&["-o", "no/p.svg"], 2, "cannot be written"),
+        (
+            &["-o", "p.svg", "--x", "velocity"],
+            2,
+            "--x is for --kind loop",
+        ),
+        (
+            &["-o", "p.svg", "--kind", "energy", "--friction", "1"],
+            2,
+            "whole model",
+        ),
+        (&["-o", "p.svg", "--kind", "walk"], 2, "possible values"),
+        (&["-o", "p.svg", "--friction", "PIM"], 3, "is PIN meant?"),
+        (
+            &["-o", "p.svg", "--friction", "7"],
+            3,
+            "there is FRICTION/103 (PIN_FRICTION) in",
+        ),
+    ] {
+        let output = draw(arguments);
+        assert_eq!(code(&output), status, "{arguments:?}: {}", errors(&output));
+        assert!(
+            errors(&output).contains(words),
+            "{arguments:?}: {}",
+            errors(&output)
+        );
+    }
+    assert!(!folder.join("p.svg").exists() && !folder.join("p.pdf").exists());
+    let tables = [&run[..], &["--format", "parquet", "-o", "tables"]].concat();
+    assert_eq!(code(&stiction(&folder, &tables)), 0);
+    let output = stiction(&folder, &["plot", "tables", "-o", "p.svg"]);
+    assert_eq!(code(&output), 3);
+    let said = errors(&output);
+    assert!(
+        said.contains("no .res in tables") && said.contains("--format"),
+        "{said}"
+    );
+    // Without friction there is none to draw; the energies are there.
+    let text = PENDULUM.replace(
+        "FRICTION/103, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, PIN_RADIUS=0.05\n",
+        "",
+    );
+    std::fs::write(folder.join("free.adm"), text).unwrap();
+    assert_eq!(
+        code(&stiction(&folder, &["run", "free.adm", "--end", "1"])),
+        0
+    );
+    let output = stiction(&folder, &["plot", "free-run", "-o", "p.svg"]);
+    assert_eq!((code(&output), folder.join("p.svg").exists()), (3, false));
+    assert!(
+        errors(&output).contains("the model has no FRICTION"),
+        "{}",
+        errors(&output)
+    );
+    let output = stiction(
+        &folder,
+        &["plot", "free-run", "--kind", "energy", "-o", "p.svg"],
+    );
+    assert_eq!(code(&output), 0, "{}", errors(&output));
 }

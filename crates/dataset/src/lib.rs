@@ -52,6 +52,7 @@ pub use expression::{
 pub use format::format;
 pub use json::{from_json, json_schema, to_json};
 pub use model::*;
+pub use names::nearest as nearest_name;
 pub use reader::{lint_dataset, read_dataset};
 pub use source::{LONGEST_SOURCE, Source, Span};
 pub use syntax::{Language, StatementTokens, SyntaxTree, Token, TokenKind};

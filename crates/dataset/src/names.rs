@@ -52,10 +52,13 @@ pub(crate) fn find(word: &str, names: impl Iterator<Item = Name> + Clone) -> Mat
 
 /// The shortest name that `word` begins, else the name with the fewest edits from it, if these are
 /// at most a third of its letters.
-pub(crate) fn nearest(
-    word: &str,
-    names: impl Iterator<Item = &'static str>,
-) -> Option<&'static str> {
+///
+/// ```
+/// let names = ["GUIDE", "HINGE"];
+/// assert_eq!(dataset::nearest_name("guid", names.into_iter()), Some("GUIDE"));
+/// assert_eq!(dataset::nearest_name("slider", names.into_iter()), None);
+/// ```
+pub fn nearest<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     if word.is_empty() || word.len() > LONGEST_NAME {
         return None;
     }

@@ -122,30 +122,35 @@ class Plots:
         return axes
 
     def energy(self, ax: Axes | None = None) -> Axes:
-        """The energy balance of the run: what was put in, where it went, what is left over."""
-        balance = self._result.report["energy_balance"]
-        if balance is None:
-            raise ParameterError("the run has no dynamic simulation, and so no energy balance")
-        bars = {
-            "work of forces": (balance["work_of_forces"], _GREEN),
-            "work of motions": (balance["work_of_motions"], _GREEN),
-            "kinetic": (balance["kinetic"]["change"], _BLUE),
-            "potential (weight)": (balance["weight"]["change"], _BLUE),
-            "stored in creep": (balance["stored"]["change"], _BLUE),
-            "dissipated by friction": (balance["dissipated"], _VERMILION),
-            "residual": (balance["residual"], "black"),
+        """The energy balance of the run over time: what was put in, where it went, what is left over.
+
+        Curves that would lie on the line at zero are left out, but for the residual.
+        """
+        energy = self._result.energy
+        weight = energy["weight"]
+        curves = {
+            "work of forces": (energy["work_of_forces"], _GREEN),
+            "work of motions": (energy["work_of_motions"], _ORANGE),
+            "kinetic": (energy["kinetic"], _BLUE),
+            "potential (weight)": (weight - weight[:1], _SKY),
+            "stored in creep": (energy["stored"], _PURPLE),
+            "dissipated": (energy["dissipated"], _VERMILION),
+            "residual": (energy["residual"], "black"),
         }
-        axes = _axes(ax)
-        # What is left of a sum of large numbers is nothing.
-        least = 1e-12 * max(abs(value) for value, _ in bars.values())
-        values = [value if abs(value) > least else 0.0 for value, _ in bars.values()]
-        drawn = axes.barh(list(bars), values, color=[colour for _, colour in bars.values()])
-        axes.bar_label(drawn, [f"{value:.3g}" for value in values], padding=3)
-        axes.axvline(0.0, color="#808080", linewidth=0.6)
-        axes.invert_yaxis()
-        axes.margins(x=0.18)
-        axes.set_xlabel(f"energy ({balance['unit']})")
-        axes.set_title("energy balance: put in (green) = gained (blue) + dissipated")
+        sizes = {name: np.abs(values).max(initial=0.0) for name, (values, _) in curves.items()}
+        axes = _axes(ax, height=4.0)
+        axes.axhline(0.0, color="#808080", linewidth=0.6)
+        for name, (values, colour) in curves.items():
+            if name == "residual" or sizes[name] > 1e-3 * max(sizes.values()):
+                # The residual below the others.
+                order = 1.5 if name == "residual" else 2.0
+                axes.plot(
+                    self._result.time, values, color=colour, linewidth=1.4, label=name, zorder=order
+                )
+        axes.set_ylabel(f"energy ({self._result.units['ENERGY_BALANCE.KINETIC']})")
+        self._over_time(axes)
+        axes.set_title("energy balance: works put in = energies gained + dissipated")
+        _legend(axes)
         return axes
 
     def _over_time(self, axes: Axes, friction: FrictionResult | None = None) -> None:

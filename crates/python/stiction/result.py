@@ -230,6 +230,15 @@ class Result:
         return polars.DataFrame(columns)
 
     @cached_property
+    def energy(self) -> Mapping[str, Floats]:
+        """Energies of the model at each output, and the works that were put in until then: `kinetic`,
+        `weight`, `stored` (in creep and bristles), `work_of_forces` (springs among them),
+        `work_of_motions`, `dissipated`, `residual`. The changes of the first three and what was
+        dissipated, less the works, are the residual: zero but for the error of the integration."""
+        entity = next(entity for entity in self._entities if entity.kind == "Stiction_Energy")
+        return {name.lower(): self._row(column) for name, column in entity.columns.items()}
+
+    @cached_property
     def plot(self) -> Plots:
         """Pictures: ``result.plot.friction("slide")``; they need matplotlib."""
         from .plots import Plots
@@ -345,13 +354,13 @@ class FrictionResult:
         unit = {name: column.unit for name, column in self._columns.items()}
         named: dict[str, tuple[str, Callable[[], Floats]]] = {}
         if self.slides:
-            named["force"] = (unit["fz"], lambda: self["fz"])
+            named["force"] = (unit["friction"], lambda: self["friction"])
         if self.turns:
-            named["torque"] = (unit["tz"], self._torque)
-        moves, coefficient, creep = (
-            ("v{}", "mu{}", "creep_{}") if self.slides else ("w{}", "mur{}", "creep_a{}")
-        )
-        for name, raw in (("mu", coefficient), ("velocity", moves), ("creep", creep)):
+            # Of a joint that slides as well the torque is beside the friction along the axis.
+            torque = "tz" if self.slides else "friction"
+            named["torque"] = (unit["tz"], lambda: self[torque])
+        coefficient, creep = ("mu{}", "creep_{}") if self.slides else ("mur{}", "creep_a{}")
+        for name, raw in (("mu", coefficient), ("creep", creep)):
             named[name] = (unit[raw.format("z")], self._about_axis(raw))
         named["normal"] = (unit["load"], lambda: self["load"])
         for cause in _CAUSES:
@@ -367,17 +376,6 @@ class FrictionResult:
             return three[0] + three[1] + three[2]
 
         return value
-
-    def _torque(self) -> Floats:
-        import numpy as np
-
-        if self.joint_kind in ("REVOLUTE", "CYLINDRICAL"):
-            return self["tz"]
-        length = _length([self[f"t{axis}"] for axis in "xyz"])
-        if self.joint_kind == "SPHERICAL":
-            return length
-        # Of a yoke the axis turns in J; the torque goes the way of the coefficient.
-        return np.asarray(np.copysign(length, self["mu"]))
 
     def _share(self, cause: str) -> Callable[[], Floats]:
         def value() -> Floats:

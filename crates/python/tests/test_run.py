@@ -51,7 +51,7 @@ def test_the_work_of_friction_is_what_the_pull_put_in_less_what_moves(
 
 
 def test_channels_are_views_that_cannot_be_written(pulled: stiction.Result) -> None:
-    force = pulled["rub.fz"]
+    force = pulled["rub_detail.friction"]
     assert np.shares_memory(force, pulled.values) and not force.flags.writeable
     assert np.shares_memory(force, pulled.friction["RUB"].force)
     assert pulled.units["RUB.FZ"] == "newton"

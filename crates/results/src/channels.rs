@@ -8,7 +8,8 @@
 //! | joint, primitive, motion, force | force and torque on the part of the I marker, at the I marker, global components; friction excluded |
 //! | friction | force and torque on the part of the I marker, J axes; coefficient, surface velocity and creep, I axes |
 //!
-//! Beside those, `friction_detail.rs` has an entity of our own for each friction.
+//! Beside those, `friction_detail.rs` has an entity of our own for each friction, and `energy.rs` one
+//! for the model.
 
 use crate::units::UnitNames;
 

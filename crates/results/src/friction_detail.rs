@@ -21,6 +21,8 @@
 //! | `STICK_END` | time | when the last complete one ended, 0 until there is one: the joint sticks where this is not after `STICK_START` |
 //! | `STUCK_TIME` | time | time spent sticking so far |
 //! | `LARGEST_CREEP` | length | largest creep so far, of LUGRE the largest bristle deflection |
+//! | `FRICTION` | load | friction force on the part of I where the joint slides, else torque: about one axis with its sign, in a spherical joint its magnitude |
+//! | `VELOCITY` | velocity | velocity of the surfaces of that, I relative to J, likewise |
 //! | `BRISTLE_X`.. `BRISTLE_AX`.. | length | LUGRE alone: bristle deflection of sliding and of turning, where the joint has it, in the axes of the creep |
 //! | `DRIFT_Z` `DRIFT_A` or `DRIFT_AX`.. | length | LUGRE alone: how far the surfaces moved while they stuck beyond what the bristles gave way, along and about the axis or about the axes of J |
 //!
@@ -98,7 +100,7 @@ impl Entity {
             units.torque()
         };
         let none = String::new();
-        let groups: [(&[&str], String); 9] = [
+        let groups: [(&[&str], String); 11] = [
             (&["REGIME"], none.clone()),
             (
                 &["LOAD", "LOAD_REACTION", "LOAD_BENDING", "LOAD_TORSION"],
@@ -106,7 +108,7 @@ impl Entity {
             ),
             (
                 &["BY_PRELOAD", "BY_REACTION", "BY_BENDING", "BY_TORSION"],
-                load,
+                load.clone(),
             ),
             (&["LIMITED"], none.clone()),
             (&["POWER"], units.power()),
@@ -117,6 +119,8 @@ impl Entity {
                 units.time.clone(),
             ),
             (&["LARGEST_CREEP"], units.length.clone()),
+            (&["FRICTION"], load),
+            (&["VELOCITY"], units.velocity()),
         ];
         let mut components: Vec<Component> = groups
             .into_iter()

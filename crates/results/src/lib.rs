@@ -36,6 +36,7 @@
 //! ```
 
 pub mod channels;
+pub mod energy;
 pub mod friction_detail;
 pub mod layout;
 pub mod msg;
@@ -46,6 +47,7 @@ pub mod res_writer;
 pub mod units;
 
 pub use channels::{Component, Entity};
+pub use energy::{ENERGY, ENERGY_COMPONENTS};
 pub use friction_detail::{FRICTION_DETAIL, SurfaceMotion};
 pub use layout::{Layout, LayoutError};
 pub use msg::{MessageWriter, StepRow};

@@ -74,6 +74,8 @@ pub struct ResFile {
     pub title: String,
     /// Program that wrote it.
     pub solver: String,
+    /// Unit of time.
+    pub time_unit: String,
     /// Entities in the order of the file, the time left out.
     pub entities: Vec<Entity>,
     /// Blocks of steps in the order of the file.
@@ -265,7 +267,8 @@ impl Parser {
         if file.columns.first().map(Vec::as_slice) != Some(&[1]) {
             return Err("the first entity is not the time with id 1".into());
         }
-        file.entities.remove(0);
+        let time = file.entities.remove(0);
+        file.time_unit = time.components.into_iter().map(|c| c.unit).collect();
         file.columns.remove(0);
         file.value_count = count - 1;
         for columns in &mut file.columns {

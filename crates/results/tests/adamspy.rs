@@ -50,7 +50,7 @@ fn write_results(path: &Path) {
         Component::new("ANGLE", "rad"),
     ];
     layout.push(Entity::request("DRIVE", 1, columns));
-    // An entity of a type that no other program knows.
+    // Entities of types that no other program knows.
     layout.push(Entity::friction_detail(
         "PIN_FRICTION",
         4,
@@ -58,6 +58,7 @@ fn write_results(path: &Path) {
         true,
         &units,
     ));
+    layout.push(Entity::energy(&units));
     let count = layout.value_count();
     let mut writer =
         ResWriter::new(File::create(path).unwrap(), &Header::default(), layout).unwrap();
@@ -111,6 +112,7 @@ print(len(names), names["time.TIME"], names["PLATE_XFORM.VX"], names["DRIVE.ANGL
 print(xml.get_component(res, "PLATE_XFORM.VX"))
 print(xml.get_component(res, "PIN_FRICTION.BETA"))
 print(xml.get_component(res, "PIN_FRICTION_DETAIL.DRIFT_A"))
+print(xml.get_component(res, "ENERGY_BALANCE.RESIDUAL"))
 series, units = xml.get_results(res, return_units=True)
 print(series["time"], series["DRIVE"]["ANGLE"], sorted(units["DRIVE"].items()))
 print(msg.get_timestamps(log)[2], len(msg.get_timestamps(log)))
@@ -141,10 +143,11 @@ fn adamspy_reads_our_files() {
     .unwrap();
     // Value k of row r is (1000 r + k)/8 and has id k + 2.
     let expected = "\
-        94 1 20 71\n\
+        103 1 20 71\n\
         [2.25, 127.25, 252.25, 377.25]\n\
         [8.375, 133.375, 258.375, 383.375]\n\
-        [11.5, 136.5, 261.5, 386.5]\n\
+        [11.75, 136.75, 261.75, 386.75]\n\
+        [12.625, 137.625, 262.625, 387.625]\n\
         [0.25, 0.5, 0.75] [133.625, 258.625, 383.625] [('ANGLE', 'ANGLE'), ('TORQUE', 'TORQUE')]\n\
         [0.5, 0.001, 7, 5, 2, 83.5] 3\n\
         True True 2\n\

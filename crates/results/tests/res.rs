@@ -344,7 +344,7 @@ fn what_is_ours_comes_last_and_moves_nothing() {
         .iter()
         .map(|component| (component.name.as_str(), component.unit.as_str()))
         .collect();
-    assert_eq!(units.len(), 19 + 6 + 2);
+    assert_eq!(units.len(), 21 + 6 + 2);
     for pair in [
         ("REGIME", ""),
         ("LOAD_BENDING", "newton"),

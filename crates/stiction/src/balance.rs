@@ -171,6 +171,25 @@ impl EnergyAccount {
         self.balance.as_ref()
     }
 
+    /// The channels of energy at an instant that is counted already: [`results::ENERGY_COMPONENTS`].
+    pub(crate) fn energies(&self, wrenches: &Wrenches<'_>) -> [f64; 7] {
+        let snapshot = wrenches.snapshot();
+        let (model, state) = (snapshot.model(), snapshot.state());
+        let frictions = 0..self.dissipated.len();
+        let stored = frictions.fold(0.0, |sum, place| sum + wrenches.friction(place).stored);
+        let balance = self.balance.as_ref();
+        let so_far = |term: fn(&EnergyBalance) -> f64| balance.map_or(0.0, term);
+        [
+            kinetic_energy(model, state),
+            gravity_energy(model, state),
+            stored,
+            so_far(|balance| balance.forces),
+            so_far(|balance| balance.motions),
+            so_far(|balance| balance.dissipated),
+            so_far(EnergyBalance::residual),
+        ]
+    }
+
     /// What follows is no dynamic simulation.
     pub(crate) fn pause(&mut self) {
         self.last = None;

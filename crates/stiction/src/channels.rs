@@ -3,8 +3,8 @@
 //! Order: parts and point masses, joints, primitives, points on curves, motions, general constraints,
 //! couplers, gears, applied forces, variables, differential equations, linear
 //! systems, plant inputs and outputs,
-//! frictions, requests; last our own entities, one a friction, where readers that look for those of
-//! Adams do not meet them.
+//! frictions, requests; last our own entities, one a friction and one for the energies of the model,
+//! where readers that look for those of Adams do not meet them.
 
 use dataset::{Dataset, Header};
 use mechanics::expression::Register;
@@ -12,6 +12,7 @@ use mechanics::rotation::to_euler_313;
 use mechanics::{ForceElement, Owner};
 use results::{Component, Entity, Layout, LayoutError, Request, UnitNames};
 
+use crate::balance::EnergyAccount;
 use crate::friction_detail;
 use crate::lower::{APPLIED, Column, Lowered, Outputs, Unit, view_name};
 use crate::wrenches::Wrenches;
@@ -151,6 +152,7 @@ impl Channels {
                 units,
             ));
         }
+        layout.push(Entity::energy(units));
         Ok(Self {
             layout,
             requests,
@@ -170,13 +172,13 @@ impl Channels {
         &self.requests
     }
 
-    /// Fills `row` with the values of a solved instant, at which each friction has dissipated so
-    /// much.
+    /// Fills `row` with the values of a solved instant, up to which the energies went as `account`
+    /// says.
     pub(crate) fn fill(
         &self,
         outputs: &Outputs,
         wrenches: &Wrenches<'_>,
-        dissipated: &[f64],
+        account: &EnergyAccount,
         row: &mut Row,
     ) {
         let snapshot = wrenches.snapshot();
@@ -229,9 +231,10 @@ impl Channels {
             row.requests
                 .push(six.map(|k| columns[k].as_ref().map_or(0.0, value)));
         }
-        for (friction, &dissipated) in dissipated.iter().enumerate() {
+        for (friction, &dissipated) in account.dissipated().iter().enumerate() {
             friction_detail::append(values, wrenches, friction, dissipated);
         }
+        values.extend(account.energies(wrenches));
     }
 }
 

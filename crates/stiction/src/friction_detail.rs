@@ -1,6 +1,7 @@
 //! The values of our own entity of a friction; `results::friction_detail` says what they are.
 
 use friction::Regime;
+use mechanics::FrictionValues;
 use mechanics::model::{Friction, FrictionJoint, Law};
 use results::{Entity, SurfaceMotion, UnitNames};
 
@@ -27,6 +28,23 @@ pub(crate) fn number(regime: Regime) -> usize {
         Regime::Stuck => 0,
         Regime::Transition => 1,
         Regime::Sliding => 2,
+    }
+}
+
+/// Friction and velocity of the surfaces about the one axis of a joint; their magnitudes where there
+/// are several.
+fn along(joint: FrictionJoint, now: &FrictionValues) -> [f64; 2] {
+    let (sliding, turning) = (now.velocity.translation, now.velocity.rotation);
+    match joint {
+        FrictionJoint::Translational(_) | FrictionJoint::Cylindrical(_) => [now.force.z, sliding.z],
+        FrictionJoint::Revolute(_) => [now.torque.z, turning.z],
+        // A pin turns about one axis of I and its torque is along the axes of J; it goes the way of the
+        // coefficient.
+        FrictionJoint::Pin(..) => {
+            let torque = now.torque.norm().copysign(now.mu.rotation.sum());
+            [torque, turning.sum()]
+        }
+        FrictionJoint::Spherical(_) => [now.torque.norm(), turning.norm()],
     }
 }
 
@@ -60,6 +78,7 @@ pub(crate) fn append(
         tally.stuck_time,
         tally.largest_creep,
     ]);
+    values.extend(along(friction.load, now));
     if let Law::LuGre(_) = friction.law {
         let motion = surface_motion(friction);
         if motion.slides() {

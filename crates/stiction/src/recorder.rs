@@ -272,9 +272,9 @@ impl<W: Write> Recorder<'_, W> {
     }
 
     fn write_results(&mut self, wrenches: &Wrenches<'_>) -> Result<(), Stop> {
-        let (outputs, dissipated) = (&self.outputs, self.account.dissipated());
+        let (outputs, account) = (&self.outputs, &self.account);
         self.channels
-            .fill(outputs, wrenches, dissipated, &mut self.row);
+            .fill(outputs, wrenches, account, &mut self.row);
         let time = wrenches.snapshot().time();
         if let Some(column) = self.row.values.iter().position(|value| !value.is_finite()) {
             let name = self.channels.layout().name_of(column).unwrap_or_default();

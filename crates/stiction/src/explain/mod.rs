@@ -2,8 +2,8 @@
 //!
 //! The `.res` of a run holds for each friction its 26 components and our own channels
 //! ([`results::friction_detail`]). This module turns them into what a person asks: what a joint did
-//! over the run ([`FrictionHistory`]) and why its friction was what it was at an instant
-//! ([`FrictionMoment`]).
+//! over the run ([`FrictionHistory`]), why its friction was what it was at an instant
+//! ([`FrictionMoment`]), and what there is to plot ([`FrictionSeries`], [`EnergySeries`]).
 //!
 //! ```no_run
 //! use stiction::explain::RunResults;
@@ -16,7 +16,9 @@
 
 mod history;
 mod moment;
+mod naming;
 mod record;
+mod series;
 mod sticks;
 
 use std::path::{Path, PathBuf};
@@ -25,6 +27,7 @@ use results::{FRICTION_DETAIL, ReadError, ResFile};
 
 pub use history::{FrictionHistory, Limited, Peak};
 pub use moment::FrictionMoment;
+pub use series::{EnergySeries, FrictionSeries};
 pub use sticks::StickInterval;
 
 use crate::text_table::text_table;
@@ -40,7 +43,10 @@ pub const REGIMES: [&str; 3] = ["stuck", "transition", "sliding"];
 #[derive(Debug, thiserror::Error)]
 pub enum ExplainError {
     /// The folder holds no results.
-    #[error("there is no .res in {0}; give the folder of a run of stiction")]
+    #[error(
+        "there is no .res in {0}; give the folder of a run that has written one (stiction run does so, \
+         unless --format leaves res out)"
+    )]
     NoResults(PathBuf),
     /// The folder holds several results.
     #[error("there are several .res in {folder}; give one of them: {}", .files.join(", "))]
@@ -72,6 +78,20 @@ pub enum ExplainError {
         /// The frictions that there are.
         known: Vec<String>,
     },
+    /// There is no friction of that name, and none in a joint of that name.
+    #[error("there is no friction {name:?}; {help}")]
+    UnknownName {
+        /// The name.
+        name: String,
+        /// What may have been meant, or what there is.
+        help: String,
+    },
+    /// The file has no channels of energy.
+    #[error(
+        "{0} has no energies: it was written by another program or an older version; run the model \
+         again"
+    )]
+    NoEnergy(PathBuf),
     /// The run ended before its first output.
     #[error("{0} has no output yet")]
     NoOutput(PathBuf),
@@ -135,6 +155,62 @@ impl RunResults {
         Ok(ids)
     }
 
+    /// The friction of an id, of a name, or in a joint of a name or id: `103`, `FRICTION/103`, `GUIDE`,
+    /// `JOINT/28`. The joints are those of the `run.json` beside the `.res`, which a run writes at its
+    /// end.
+    ///
+    /// # Errors
+    /// [`ExplainError::UnknownName`] with what may have been meant; [`ExplainError::NoFriction`].
+    pub fn find(&self, name: &str) -> Result<u32, ExplainError> {
+        naming::find(&self.names()?, name)
+    }
+
+    /// What pictures call a friction: itself and its joint, where that is known.
+    ///
+    /// # Errors
+    /// No friction of that id.
+    pub fn title(&self, id: u32) -> Result<String, ExplainError> {
+        let names = self.names()?;
+        let named = names.iter().find(|names| names.id == id);
+        let named = named.ok_or_else(|| self.unknown(id, &names))?;
+        Ok(named.title())
+    }
+
+    fn names(&self) -> Result<Vec<naming::Names>, ExplainError> {
+        let ids = self.frictions()?;
+        Ok(naming::names(&self.file, &ids, &self.path))
+    }
+
+    fn unknown(&self, id: u32, names: &[naming::Names]) -> ExplainError {
+        let known = names.iter().map(|names| format!("FRICTION/{}", names.id));
+        ExplainError::UnknownFriction {
+            id,
+            known: known.collect(),
+        }
+    }
+
+    /// What a friction was at every output.
+    ///
+    /// # Errors
+    /// No friction of that id, or no output.
+    pub fn series(&self, id: u32) -> Result<FrictionSeries, ExplainError> {
+        let series = FrictionSeries::new(&self.records(id)?);
+        series.ok_or_else(|| ExplainError::NoOutput(self.path.clone()))
+    }
+
+    /// The energies of the model at every output.
+    ///
+    /// # Errors
+    /// [`ExplainError::NoEnergy`], or no output.
+    pub fn energies(&self) -> Result<EnergySeries, ExplainError> {
+        let series = EnergySeries::new(&self.file);
+        let series = series.ok_or_else(|| ExplainError::NoEnergy(self.path.clone()))?;
+        if series.time.is_empty() {
+            return Err(ExplainError::NoOutput(self.path.clone()));
+        }
+        Ok(series)
+    }
+
     /// What a friction did over the run.
     ///
     /// # Errors
@@ -170,12 +246,8 @@ impl RunResults {
     }
 
     fn records(&self, id: u32) -> Result<Records<'_>, ExplainError> {
-        let known = self.frictions()?;
-        if !known.contains(&id) {
-            return Err(ExplainError::UnknownFriction {
-                id,
-                known: known.iter().map(|id| format!("FRICTION/{id}")).collect(),
-            });
+        if !self.frictions()?.contains(&id) {
+            return Err(self.unknown(id, &self.names()?));
         }
         Records::new(&self.file, id).ok_or_else(|| ExplainError::NoFriction(self.path.clone()))
     }

@@ -3,9 +3,10 @@
 use results::{FRICTION_DETAIL, ResFile};
 
 use super::Units;
+use super::series::outputs;
 
 /// Components of ours that every friction has, in the order of [`Records`]' columns.
-const DETAIL: [&str; 19] = [
+const DETAIL: [&str; 21] = [
     "REGIME",
     "LOAD",
     "LOAD_REACTION",
@@ -25,6 +26,8 @@ const DETAIL: [&str; 19] = [
     "STICK_END",
     "STUCK_TIME",
     "LARGEST_CREEP",
+    "FRICTION",
+    "VELOCITY",
 ];
 
 /// The outputs of one friction.
@@ -108,9 +111,7 @@ impl<'a> Records<'a> {
 
     /// All outputs in the order of time; the block of the model as given has none.
     pub(super) fn all(&self) -> Vec<Record<'_>> {
-        let blocks = self.file.data.iter();
-        let blocks = blocks.filter(|block| !block.name.starts_with("modelInput"));
-        blocks
+        outputs(self.file)
             .flat_map(|block| {
                 block.times.iter().enumerate().map(|(step, &time)| Record {
                     records: self,
@@ -233,6 +234,16 @@ impl Record<'_> {
 
     pub(super) fn largest_creep(&self) -> f64 {
         self.detail(18)
+    }
+
+    /// Friction force where the joint slides, else torque: about one axis with its sign.
+    pub(super) fn along(&self) -> f64 {
+        self.detail(19)
+    }
+
+    /// Velocity of the surfaces of that.
+    pub(super) fn surface_velocity(&self) -> f64 {
+        self.detail(20)
     }
 
     /// Whether a stick goes on.

@@ -239,6 +239,55 @@ fn energies_of_the_size_of_the_error_are_none() {
     assert_eq!(run.report.warnings, 0, "{}", run.messages);
 }
 
+/// A mass that slides against friction, gravity and a push has its energies at every output.
+#[test]
+fn energies_over_time_are_those_of_a_sliding_mass() {
+    // 2 kg at 4 m/s; gravity 10 m/s2 across, 1 m/s2 against the motion; friction 0.2 of 20 N; a push of
+    // 1 N: it slows down by 0.2 * 10 + 1 - 0.5 = 2.5 m/s2.
+    let model = GUIDED_MASS.replace("IP=1, 1, 1", "IP=1, 1, 1, VZ=4")
+        + "ACCGRAV/IGRAV=-10, KGRAV=-1
+FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2, INPUTS=REACTION_FORCE
+, STICTION_TRANSITION_VELOCITY=0.001
+SFORCE/1, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=1
+";
+    let commands = "\nINTEGRATOR/GSTIFF, SI2, ERROR=1E-8\nSIMULATE/DYNAMIC, END=1, STEPS=10\n";
+    let results = run_commands(&model, commands).results;
+    let get = |component: &str| results.get(&format!("ENERGY_BALANCE.{component}")).unwrap();
+    let time = results.get("time.TIME").unwrap();
+    let way: Vec<f64> = time.iter().map(|t| 4.0 * t - 1.25 * t * t).collect();
+    let of = |energy: fn(f64, f64) -> f64| -> Vec<f64> {
+        let outputs = time.iter().zip(&way);
+        outputs.map(|(t, s)| energy(4.0 - 2.5 * t, *s)).collect()
+    };
+    let expected = [
+        ("KINETIC", of(|v, _| v * v)),
+        ("WEIGHT", of(|_, s| 2.0 * s)),
+        ("STORED", of(|_, _| 0.0)),
+        ("WORK_OF_FORCES", of(|_, s| s)),
+        ("WORK_OF_MOTIONS", of(|_, _| 0.0)),
+        ("DISSIPATED", of(|_, s| 4.0 * s)),
+        ("RESIDUAL", of(|_, _| 0.0)),
+    ];
+    assert_eq!(
+        expected.each_ref().map(|(name, _)| *name),
+        results::ENERGY_COMPONENTS
+    );
+    for (name, expected) in expected {
+        let found = get(name);
+        // The first block is the model as given, which is all zeros.
+        for k in 1..time.len() {
+            let difference = (found[k] - expected[k]).abs();
+            // Of 16 J; what steps of an error of 1e-8 in length and velocity add up to.
+            assert!(difference < 1e-6, "{name} at {}: {difference:e}", time[k]);
+        }
+    }
+    // Friction and velocity of the surfaces about the one axis, with their signs.
+    let friction = results.get("FRICTION_1_DETAIL.FRICTION").unwrap();
+    let velocity = results.get("FRICTION_1_DETAIL.VELOCITY").unwrap();
+    let last = time.len() - 1;
+    assert!((friction[last] + 4.0).abs() < 1e-9 && (velocity[last] - 1.5).abs() < 1e-7);
+}
+
 /// A motion works on what it moves, at whichever level it is prescribed.
 #[test]
 fn motions_of_every_level_do_work() {

@@ -79,6 +79,32 @@ fn the_block_on_the_incline_is_explained() {
         "{sliding}"
     );
 
+    // A push along the plane against friction that holds the weight: what there is to plot.
+    let series = run.series(1).unwrap();
+    assert_eq!(series.time.len(), history.outputs);
+    assert!(series.slides() && series.units.load == "newton");
+    assert!((series.friction[100] + weight).abs() < 1e-4 * weight);
+    assert_eq!(series.causes[1][100], series.friction[100].abs());
+    let way = series.displacement();
+    // The work of a constant friction is that over the way slid; the trapezoidal rule is exact for the
+    // linear rise of the velocity but for the one interval in which it begins.
+    let slid = history.dissipated / (0.2 * normal);
+    assert!((way[500] - slid).abs() < 1e-3 * slid, "{} {slid}", way[500]);
+    // Without the record of a run the joint is not known.
+    assert_eq!(run.title(1).unwrap(), "FRICTION/1 (BLOCK_FRICTION)");
+    assert_eq!(run.find("block_friction").unwrap(), 1);
+    let misspelt = run.find("BLOK_FRICTION").unwrap_err().to_string();
+    assert_eq!(
+        misspelt,
+        "there is no friction \"BLOK_FRICTION\"; is BLOCK_FRICTION meant?"
+    );
+    let energies = run.energies().unwrap();
+    assert_eq!(
+        (energies.unit.as_str(), energies.time_unit.as_str()),
+        ("newton-meter", "sec")
+    );
+    assert_eq!(*energies.dissipated.last().unwrap(), history.dissipated);
+
     let outside = run.at(1, 5.1).unwrap_err();
     assert!(matches!(outside, ExplainError::OutsideRun { end, .. } if end == 5.0));
     assert!(run.at(1, f64::NAN).is_err());

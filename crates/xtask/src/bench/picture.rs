@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use plots::{COLOURS, prepare_letters};
 use plotters::prelude::*;
 
 use super::tables::names;
@@ -9,18 +10,6 @@ use super::work_precision::{Measured, Row};
 
 /// Width and height, pixels.
 const SIZE: (u32, u32) = (760, 460);
-
-/// Eight colours that the colour-blind can tell apart (Okabe and Ito 2008).
-const COLOURS: [RGBColor; 8] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(0, 0, 0),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(120, 110, 0),
-];
 
 /// File of the picture of a case, as seen from the page.
 pub(crate) fn file(case: &str) -> String {
@@ -59,6 +48,7 @@ pub(crate) fn draw(measured: &Measured, path: &Path) -> Result<(), String> {
     if all().next().is_none() {
         return Err(format!("{}: nothing was measured", measured.case.name));
     }
+    prepare_letters();
     let area = SVGBackend::new(path, SIZE).into_drawing_area();
     area.fill(&WHITE).map_err(said)?;
     let mut chart = ChartBuilder::on(&area)
