@@ -2,6 +2,7 @@
 
 mod shared;
 
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use shared::{code, errors, folder, stiction};
@@ -761,4 +762,37 @@ fn plot_draws_what_friction_did() {
         &["plot", "free-run", "--kind", "energy", "-o", "p.svg"],
     );
     assert_eq!(code(&output), 0, "{}", errors(&output));
+}
+
+/// Every `$ stiction ...` of the tutorial prints what stands below it, but for the time that it took.
+#[test]
+fn the_tutorial_shows_what_the_program_says() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folder = folder::<&str>("tutorial", &[]);
+    let incline = folder.join("examples/incline");
+    std::fs::create_dir_all(&incline).unwrap();
+    for file in ["incline.adm", "incline.acf"] {
+        std::fs::copy(root.join("examples/incline").join(file), incline.join(file)).unwrap();
+    }
+    let page = std::fs::read_to_string(root.join("docs/tutorial.md")).unwrap();
+    let timeless = |text: &str| {
+        let words = text.trim().split(' ').collect::<Vec<_>>();
+        let kept = words
+            .windows(2)
+            .filter(|pair| pair[1] != "s,")
+            .map(|pair| pair[0]);
+        kept.chain(words.last().copied())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let mut shown = 0;
+    for block in page.split("```text\n$ stiction ").skip(1) {
+        let (command, expected) = block.split("```").next().unwrap().split_once('\n').unwrap();
+        let output = stiction(&folder, &command.split(' ').collect::<Vec<_>>());
+        assert_eq!(code(&output), 0, "{command}: {}", errors(&output));
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(timeless(&said), timeless(expected), "stiction {command}");
+        shown += 1;
+    }
+    assert_eq!(shown, 4);
 }

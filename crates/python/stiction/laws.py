@@ -74,17 +74,18 @@ def _array(found: bytes, shape: tuple[int, ...]) -> Floats:
 class Original:
     """FORMULATION=ORIGINAL, stick and slip by creep; docs/theory/friction.md has the formulas."""
 
-    #: MU_STATIC and MU_DYNAMIC.
     mu_s: float
+    """MU_STATIC."""
     mu_d: float
-    #: STICTION_TRANSITION_VELOCITY, length/time.
+    """MU_DYNAMIC."""
     vs: float = 0.1
-    #: TRANSITION_VELOCITY_COEFFICIENT: sliding is complete at `c vs`.
+    """STICTION_TRANSITION_VELOCITY, length/time."""
     c: float = 1.5
-    #: MAX_STICTION_DEFORMATION, length.
+    """TRANSITION_VELOCITY_COEFFICIENT: sliding is complete at `c vs`."""
     dm: float = 0.01
-    #: EFFECT.
+    """MAX_STICTION_DEFORMATION, length."""
     effect: Literal["all", "stiction", "sliding"] = "all"
+    """EFFECT."""
 
     def __post_init__(self) -> None:
         _checked(self, {"c": (1.0, False)})
@@ -109,19 +110,20 @@ class Original:
 class LuGre:
     """FORMULATION=LUGRE, the bristles of Canudas de Wit, Olsson, Åström and Lischinsky (1995)."""
 
-    #: MU_STATIC and MU_DYNAMIC.
     mu_s: float
+    """MU_STATIC."""
     mu_d: float
-    #: BRISTLE_STIFFNESS_COEFFICIENT, force/length.
+    """MU_DYNAMIC."""
     sigma0: float = 1e4
-    #: DAMPING_COEFFICIENT, force time/length.
+    """BRISTLE_STIFFNESS_COEFFICIENT, force/length."""
     sigma1: float = 1e2
-    #: VISCOUS_FRICTION_COEFFICIENT, force time/length.
+    """DAMPING_COEFFICIENT, force time/length."""
     sigma2: float = 0.0
-    #: VELOCITY_THRESHOLD_STRIBECK, length/time.
+    """VISCOUS_FRICTION_COEFFICIENT, force time/length."""
     vs: float = 1e-3
-    #: DECAY_EXPONENT_STRIBECK.
+    """VELOCITY_THRESHOLD_STRIBECK, length/time."""
     delta: float = 2.0
+    """DECAY_EXPONENT_STRIBECK."""
 
     def __post_init__(self) -> None:
         _checked(self, {"sigma1": (0.0, True), "sigma2": (0.0, True)})

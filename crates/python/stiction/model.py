@@ -18,9 +18,9 @@ from .names import Named, unknown
 from .result import Result
 from .units import Quantity, converted, of_dimension
 
-#: What an argument of a statement can be given: a number (model units), a number with its unit, a
-#: word or expression, or several of them.
 Value = Union[float, Quantity, str, Sequence[Union[float, str]]]
+"""What an argument of a statement can be given: a number (model units), a number with its unit, a
+word or expression, or several of them."""
 
 _FORMATS = ("res", "parquet", "csv")
 
@@ -94,7 +94,7 @@ class Friction(Element):
 
 
 class Model:
-    """A dataset with its commands. It does not change: :meth:`replace` makes another one.
+    """A dataset with its commands. It does not change: `replace` makes another one.
 
     Parts, joints, frictions and so on are found by name (that of Adams View, in any case) or by id.
     """
@@ -129,7 +129,7 @@ class Model:
 
     @property
     def changes(self) -> tuple[str, ...]:
-        """What :meth:`replace` has changed, as commands."""
+        """What `replace` has changed, as commands."""
         return self._changes
 
     @property
@@ -215,10 +215,10 @@ class Model:
 
         Before the dot stands the name of an element, of a joint for its friction, or statement and id
         as in ``"FRICTION/103.mu_static"``; behind it the keyword in any case. Numbers are in model
-        units; :class:`Quantity` has its own.
+        units; `Quantity` has its own.
 
-        Raises :class:`UnknownName`, :class:`ParameterError` where a number is not finite or has
-        another unit, and :class:`InputError` for what the dataset language refuses.
+        Raises `UnknownName`, `ParameterError` where a number is not finite or has
+        another unit, and `InputError` for what the dataset language refuses.
         """
         statements = tuple(self._change(place, value) for place, value in changes.items())
         with typed_errors():
@@ -282,8 +282,8 @@ class Model:
         `states`), and the message file. `progress` shows how far it is, or is called with time and end.
 
         Other threads of Python go on meanwhile. Ctrl-C stops the run and raises
-        :class:`Interrupted`, a KeyboardInterrupt that has the results so far. A run that fails
-        raises nothing: `success` and `message` of the result tell. :class:`InputError` is raised
+        `Interrupted`, a KeyboardInterrupt that has the results so far. A run that fails
+        raises nothing: `success` and `message` of the result tell. `InputError` is raised
         for what cannot be simulated, with its place.
         """
         for name, number in (("end", end), ("dtout", dtout), ("error", error)):
@@ -382,7 +382,7 @@ def _written(place: str, value: Value, unit: str | None) -> str:
 def load(path: str | os.PathLike[str]) -> Model:
     """Reads a dataset (`.adm`) or a command file (`.acf`) with the dataset that it names.
 
-    Raises :class:`InputError` with everything that is wrong with the files.
+    Raises `InputError` with everything that is wrong with the files.
     """
     shown = os.fspath(path)
     with typed_errors():

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-#: The regimes of friction by number, as in the channel `regime`.
 REGIMES = ("stuck", "transition", "sliding")
+"""The regimes of friction by number, as in the channel `regime`."""
 
-#: What a row belongs to, by number.
 ANALYSES = ("modelInput", "initialConditions", "static", "quasiStatic", "dynamic", "kinematic")
+"""What a row belongs to, by number."""
 
 _CAUSES = ("preload", "reaction", "bending", "torsion")
 
@@ -70,10 +70,10 @@ class Result:
         about: dict[str, Any],
     ) -> None:
         self._raw = (entities, times, kinds, columns, report, diagnostics, log, about)
-        #: Warnings about the model and about what the run came upon.
         self.diagnostics = diagnostics
-        #: The message file of the run.
+        """Warnings about the model and about what the run came upon."""
         self.log = log
+        """The message file of the run."""
         self._about = about
 
     @classmethod
@@ -148,7 +148,7 @@ class Result:
 
     @property
     def options(self) -> Mapping[str, Any]:
-        """What :meth:`Model.run` was given, and the changes of the model."""
+        """What `Model.run` was given, and the changes of the model."""
         return dict(self._about["options"])
 
     @property
@@ -165,7 +165,7 @@ class Result:
 
     @cached_property
     def analysis(self) -> NDArray[np.uint8]:
-        """What each output belongs to, a number of :data:`stiction.result.ANALYSES`."""
+        """What each output belongs to, a number of `stiction.result.ANALYSES`."""
         import numpy as np
 
         return np.frombuffer(self._raw[2], dtype=np.uint8)
@@ -299,33 +299,31 @@ class Interrupted(KeyboardInterrupt):
 class FrictionResult:
     """What one friction did over `time`: channels by name, read-only numpy arrays.
 
-    ========================  ==========================================================
-    `force`, `torque`         friction on the part of marker I; a joint that slides has a
-                              force, one that turns a torque, a cylindrical one both
-    `load` (`normal`)         effective load at the sliding surfaces
-    `mu`                      coefficient of friction, opposing the motion
-    `velocity`                velocity of the surfaces, I relative to J
-    `creep`                   creep of the surfaces while they stick
-    `regime`                  0 stuck, 1 transition, 2 sliding
-    `share_preload`, `_reaction`, `_bending`, `_torsion`
-                              parts of the friction by its cause, together 1 where there is any
-    `power`, `work`, `stored`, `dissipated`
-                              energy taken out of the motion
-    `limited`                 1 where a limit of the friction was reached
-    `sticks`, `stuck_time`, `largest_creep`
-                              what was counted so far
-    ========================  ==========================================================
+    | channel | what it is |
+    |---|---|
+    | `force`, `torque` | friction on the part of marker I: of a joint that slides, that turns |
+    | `load` (`normal`) | effective load at the sliding surfaces |
+    | `mu` | coefficient of friction, opposing the motion |
+    | `velocity` | velocity of the surfaces, I relative to J |
+    | `creep` | creep of the surfaces while they stick |
+    | `regime` | 0 stuck, 1 transition, 2 sliding |
+    | `share_preload`, `share_reaction` | parts of the friction by its cause, together 1 where there is any |
+    | `share_bending`, `share_torsion` | the other two |
+    | `power`, `work`, `stored`, `dissipated` | energy taken out of the motion |
+    | `limited` | 1 where a limit of the friction was reached |
+    | `sticks`, `stuck_time`, `largest_creep` | what was counted so far |
 
-    About one axis all of them have signs; in a spherical joint they are magnitudes. The components of
-    result files are there as well, in lower case: `fx`, `murz`, `creep_ax`, `by_bending`, ...
+    A cylindrical joint has both a force and a torque. About one axis all have signs; in a spherical joint they
+    are magnitudes. The components of result files are there as well, in lower case: `fx`, `murz`,
+    `creep_ax`, `by_bending`, ...
     """
 
     def __init__(self, result: Result, entity: _Entity, detail: _Entity) -> None:
         self._result = result
-        #: Name and id of the FRICTION.
         self.name, self.id = entity.element, entity.id
-        #: Name of its joint, and its type as in the dataset.
+        """Name and id of the FRICTION."""
         self.joint: str = result._about["frictions"][self.id]
+        """Name of its joint, and its type as in the dataset."""
         self.joint_kind: str = result._about["joints"][self.id]
         self._columns = {
             name.lower(): column

@@ -1,4 +1,4 @@
-"""The examples of docs/python.md print what stands there, and those of README.md and docstrings run."""
+"""The examples of pages of docs/ print what stands there, and those of README.md and docstrings run."""
 
 import doctest
 import re
@@ -15,11 +15,15 @@ ROOT = Path(__file__).parents[3]
 BLOCKS = re.compile(r"```python\n(.*?)```(?:\s*```text\n(.*?)```)?", re.DOTALL)
 
 
-def test_the_page_prints_what_it_says(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
+@pytest.mark.parametrize("page", ["python.md", "tutorial.md"])
+def test_the_page_prints_what_it_says(
+    page: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}
-    blocks = BLOCKS.findall((ROOT / "docs" / "python.md").read_text(encoding="utf-8"))
-    assert len(blocks) >= 6
+    blocks = BLOCKS.findall((ROOT / "docs" / page).read_text(encoding="utf-8"))
+    assert len(blocks) >= 4
     for code, expected in blocks:
         said = StringIO()
         with redirect_stdout(said):
