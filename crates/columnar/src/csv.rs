@@ -33,6 +33,13 @@ impl CsvFile {
                 match values {
                     // The shortest digits that give the same number.
                     Values::Double(values) => write!(self.line, "{:?}", values[row])?,
+                    Values::Optional(values) => {
+                        if let Some(value) = values[row] {
+                            write!(self.line, "{value:?}")?;
+                        }
+                    }
+                    Values::Long(values) => write!(self.line, "{}", values[row])?,
+                    Values::Boolean(values) => write!(self.line, "{}", values[row])?,
                     Values::Integer(values) => write!(self.line, "{}", values[row])?,
                     Values::Text(values) => {
                         let text = String::from_utf8_lossy(values[row].data());

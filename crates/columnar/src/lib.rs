@@ -9,6 +9,8 @@
 //! beside it: title, units by column, and what the caller adds. A file that is being written ends in
 //! `.part` and gets its name once it is whole.
 //!
+//! A table that is there as a whole is written and read by [`write`] and [`read`].
+//!
 //! ```
 //! use columnar::{Format, Tables};
 //! use stiction::sink::{DataKind, Header, Layout, Sink};
@@ -26,6 +28,7 @@
 mod csv;
 mod parquet_file;
 mod table;
+mod whole;
 
 use std::path::{Path, PathBuf};
 
@@ -34,7 +37,9 @@ use serde_json::{Map, Value, json};
 use stiction::OutputError;
 use stiction::sink::{DataKind, Header, Layout, Sink};
 
+pub use crate::table::Values;
 use crate::table::{Heading, Kind, Table};
+pub use crate::whole::{Column, WholeTable, read, write};
 
 /// A format of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

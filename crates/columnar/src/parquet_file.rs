@@ -5,7 +5,7 @@ use std::io::BufWriter;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArrayType, DoubleType, Int32Type};
+use parquet::data_type::{BoolType, ByteArrayType, DoubleType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -52,8 +52,18 @@ impl ParquetFile {
                 Values::Double(values) => {
                     column.typed::<DoubleType>().write_batch(values, None, None)
                 }
+                Values::Optional(values) => {
+                    let present: Vec<f64> = values.iter().flatten().copied().collect();
+                    let levels: Vec<i16> = values.iter().map(|v| v.is_some().into()).collect();
+                    let column = column.typed::<DoubleType>();
+                    column.write_batch(&present, Some(&levels), None)
+                }
                 Values::Integer(values) => {
                     column.typed::<Int32Type>().write_batch(values, None, None)
+                }
+                Values::Long(values) => column.typed::<Int64Type>().write_batch(values, None, None),
+                Values::Boolean(values) => {
+                    column.typed::<BoolType>().write_batch(values, None, None)
                 }
                 Values::Text(values) => {
                     let column = column.typed::<ByteArrayType>();
@@ -70,12 +80,18 @@ impl ParquetFile {
 /// A column in the schema.
 fn field(heading: &Heading) -> Result<Arc<Type>, ParquetError> {
     let (physical, logical) = match heading.kind {
-        Kind::Double => (Physical::DOUBLE, None),
+        Kind::Double | Kind::Optional => (Physical::DOUBLE, None),
         Kind::Integer => (Physical::INT32, None),
+        Kind::Long => (Physical::INT64, None),
+        Kind::Boolean => (Physical::BOOLEAN, None),
         Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };
+    let repetition = match heading.kind {
+        Kind::Optional => Repetition::OPTIONAL,
+        _ => Repetition::REQUIRED,
+    };
     let field = Type::primitive_type_builder(&heading.name, physical)
-        .with_repetition(Repetition::REQUIRED)
+        .with_repetition(repetition)
         .with_logical_type(logical)
         .build()?;
     Ok(Arc::new(field))
@@ -91,7 +107,12 @@ impl TableFile for ParquetFile {
             let entry = KeyValue::new(format!("stiction.{name}"), fact.clone());
             self.writer.append_key_value_metadata(entry);
         }
-        let ended = self.writer.close();
-        ended.map(|_| ()).map_err(|error| error.to_string())
+        let ended = self
+            .writer
+            .into_inner()
+            .map_err(|error| error.to_string())?;
+        let file = ended.into_inner().map_err(|error| error.to_string())?;
+        // Its name is given to the file when its bytes are on the disk.
+        file.sync_all().map_err(|error| error.to_string())
     }
 }

@@ -16,7 +16,11 @@ const BATCH: usize = 1 << 20;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Double,
+    /// Numbers of which some may be missing.
+    Optional,
     Integer,
+    Long,
+    Boolean,
     Text,
 }
 
@@ -36,19 +40,47 @@ impl Heading {
 }
 
 /// Values of a column.
-pub(crate) enum Values {
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Numbers.
     Double(Vec<f64>),
+    /// Numbers of which some are missing.
+    Optional(Vec<Option<f64>>),
+    /// Whole numbers of 32 bits.
     Integer(Vec<i32>),
+    /// Whole numbers of 64 bits.
+    Long(Vec<i64>),
+    /// Truth values.
+    Boolean(Vec<bool>),
+    /// Texts in UTF-8.
     Text(Vec<ByteArray>),
 }
 
 impl Values {
-    fn clear(&mut self) {
-        match self {
-            Self::Double(values) => values.clear(),
-            Self::Integer(values) => values.clear(),
-            Self::Text(values) => values.clear(),
+    pub(crate) fn new(kind: Kind) -> Self {
+        match kind {
+            Kind::Double => Self::Double(Vec::new()),
+            Kind::Optional => Self::Optional(Vec::new()),
+            Kind::Integer => Self::Integer(Vec::new()),
+            Kind::Long => Self::Long(Vec::new()),
+            Kind::Boolean => Self::Boolean(Vec::new()),
+            Kind::Text => Self::Text(Vec::new()),
         }
+    }
+
+    pub(crate) fn kind(&self) -> Kind {
+        match self {
+            Self::Double(_) => Kind::Double,
+            Self::Optional(_) => Kind::Optional,
+            Self::Integer(_) => Kind::Integer,
+            Self::Long(_) => Kind::Long,
+            Self::Boolean(_) => Kind::Boolean,
+            Self::Text(_) => Kind::Text,
+        }
+    }
+
+    fn clear(&mut self) {
+        *self = Self::new(self.kind());
     }
 }
 
@@ -71,7 +103,7 @@ pub(crate) struct Table {
 }
 
 /// The name of a file that is not whole yet.
-fn part(path: &Path) -> PathBuf {
+pub(crate) fn part(path: &Path) -> PathBuf {
     path.with_added_extension("part")
 }
 
@@ -101,11 +133,7 @@ impl Table {
             let begun = begun.map_err(|cause| wrong(&path, &cause))?;
             files.push((path, begun));
         }
-        let columns = headings.iter().map(|heading| match heading.kind {
-            Kind::Double => Values::Double(Vec::new()),
-            Kind::Integer => Values::Integer(Vec::new()),
-            Kind::Text => Values::Text(Vec::new()),
-        });
+        let columns = headings.iter().map(|heading| Values::new(heading.kind));
         Ok(Self {
             columns: columns.collect(),
             rows: 0,

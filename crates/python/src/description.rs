@@ -1,8 +1,9 @@
 //! What a model holds, as JSON.
 
-use dataset::{Friction, FrictionInputs, FrictionQuantity, Header};
+use dataset::{Dimension, Friction, FrictionInputs, FrictionQuantity, Header};
 use serde_json::{Value, json};
-use stiction::Project;
+use stiction::sink::UnitNames;
+use stiction::{Project, unit_of};
 
 /// Title, units, elements by statement, and what is known of joints, parts and frictions.
 pub(crate) fn of(project: &Project) -> Value {
@@ -19,6 +20,7 @@ pub(crate) fn of(project: &Project) -> Value {
         .iter()
         .map(|part| json!({ "id": part.header.id, "ground": part.ground, "mass": part.mass }));
     let units = project.unit_names();
+    let frictions = dataset.frictions.iter().map(|one| friction(one, &units));
     json!({
         "title": dataset.title,
         "prefix": project.prefix(),
@@ -32,7 +34,7 @@ pub(crate) fn of(project: &Project) -> Value {
         "elements": elements.collect::<Vec<_>>(),
         "joints": joints.collect::<Vec<_>>(),
         "parts": parts.collect::<Vec<_>>(),
-        "frictions": dataset.frictions.iter().map(friction).collect::<Vec<_>>(),
+        "frictions": frictions.collect::<Vec<_>>(),
     })
 }
 
@@ -45,27 +47,28 @@ fn name(statement: &str, header: &Header) -> String {
     }
 }
 
-fn friction(friction: &Friction) -> Value {
+fn friction(friction: &Friction, units: &UnitNames) -> Value {
     // In the order of the statement's page, which an object would not keep.
     let mut arguments = Vec::new();
-    let mut put = |keyword: &str, value: Value, dimension: &str, given: bool| {
+    let mut put = |keyword: &str, value: Value, dimension: Dimension, given: bool| {
         let keyword = keyword.to_ascii_lowercase();
-        arguments.push(json!([keyword, value, dimension, given]));
+        arguments.push(json!([keyword, value, unit_of(dimension, units), given]));
     };
+    let plain = Dimension::Number;
     put(
         "FORMULATION",
         friction.formulation.keyword().into(),
-        "",
+        plain,
         true,
     );
-    put("MU_STATIC", friction.mu_static.into(), "number", true);
-    put("MU_DYNAMIC", friction.mu_dynamic.into(), "number", true);
-    put("EFFECT", friction.effect.keyword().into(), "", true);
-    put("INPUTS", inputs(&friction.inputs).into(), "", true);
+    put("MU_STATIC", friction.mu_static.into(), plain, true);
+    put("MU_DYNAMIC", friction.mu_dynamic.into(), plain, true);
+    put("EFFECT", friction.effect.keyword().into(), plain, true);
+    put("INPUTS", inputs(&friction.inputs).into(), plain, true);
     put(
         "OVERLAP_DELTA",
         friction.overlap_delta.keyword().into(),
-        "",
+        plain,
         true,
     );
     for quantity in FrictionQuantity::ALL {
@@ -74,7 +77,7 @@ fn friction(friction: &Friction) -> Value {
         put(
             quantity.keyword(),
             value.into(),
-            quantity.dimension().as_str(),
+            quantity.dimension(),
             given,
         );
     }

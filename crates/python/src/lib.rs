@@ -7,6 +7,7 @@
 //! |---|---|
 //! | models: reading, changing, telling what they hold | `project.rs`, `description.rs`, `recording.rs` |
 //! | runs: without the lock of the interpreter, stopped by Ctrl-C | `run.rs`, the table of results `table.rs` |
+//! | studies: cases on all cores, their table | `study.rs` |
 //! | friction laws over arrays | `laws.rs` |
 
 mod description;
@@ -14,6 +15,7 @@ mod laws;
 mod project;
 mod recording;
 mod run;
+mod study;
 mod table;
 
 /// What the package takes from Rust.
@@ -22,7 +24,11 @@ mod _native {
     #[pymodule_export]
     use crate::laws::{lugre, lugre_stribeck, original};
     #[pymodule_export]
-    use crate::project::{InputFailure, OutputFailure, Project};
+    use crate::project::{
+        InputFailure, NameFailure, OutputFailure, Project, ValueFailure, conversion,
+    };
     #[pymodule_export]
     use crate::run::run;
+    #[pymodule_export]
+    use crate::study::{FolderFailure, Record, Study, read_study};
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use serde_json::Value;
-use stiction::{Disk, InputError, Levels, Message};
+use stiction::{ArgumentError, Disk, InputError, Levels, Message};
 
 use crate::description;
 use crate::recording::{Recording, Texts};
@@ -23,6 +23,32 @@ pyo3::create_exception!(
     PyException,
     "A file that cannot be written: its path, and why."
 );
+
+pyo3::create_exception!(
+    _native,
+    NameFailure,
+    PyException,
+    "A name of nothing: what it should name, the name, and the names that there are."
+);
+pyo3::create_exception!(
+    _native,
+    ValueFailure,
+    PyException,
+    "A value that cannot be used: why, and what to write instead."
+);
+
+pub(crate) fn argument_failure(error: ArgumentError) -> PyErr {
+    match error {
+        ArgumentError::Unknown { what, name, known } => NameFailure::new_err((what, name, known)),
+        ArgumentError::Value(text) => ValueFailure::new_err(text),
+    }
+}
+
+/// The number by which a number in one unit is multiplied to be in another.
+#[pyfunction]
+pub(crate) fn conversion(from: &str, into: &str) -> PyResult<f64> {
+    stiction::conversion(from, into).map_err(argument_failure)
+}
 
 /// A dataset with its commands and the changes made to it.
 #[pyclass(frozen, module = "stiction._native")]
@@ -79,6 +105,12 @@ impl Project {
             project,
             texts: self.texts.clone(),
         })
+    }
+
+    /// What a change of the argument of that name begins with, and its unit where it is known.
+    fn argument(&self, name: &str) -> PyResult<(String, Option<String>)> {
+        let argument = self.project.argument(name).map_err(argument_failure)?;
+        Ok((argument.change, argument.unit))
     }
 
     /// The files that were read, by their paths.

@@ -1,13 +1,13 @@
 //! Runs without the lock of the interpreter, stopped by Ctrl-C.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use columnar::{Format, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use stiction::sink::Sink;
-use stiction::{OutputError, Progress, RunOptions, Session, Watch};
+use stiction::{Message, OutputError, Progress, RunOptions, RunReport, Session, Watch};
 
 use crate::project::{OutputFailure, Project, input_failure, messages};
 use crate::table::Table;
@@ -42,7 +42,7 @@ impl Watch for Monitor<'_> {
 
 /// What a run hands over: entities and report as JSON, times, kinds and columns as bytes, messages
 /// as JSON, the text of the message file, and what stopped it.
-type Ran<'py> = (
+pub(crate) type Ran<'py> = (
     String,
     Bound<'py, PyBytes>,
     Bound<'py, PyBytes>,
@@ -52,6 +52,51 @@ type Ran<'py> = (
     String,
     Option<PyErr>,
 );
+
+/// What a run tells of itself beside its rows.
+pub(crate) struct Told {
+    report: String,
+    messages: String,
+    log: String,
+}
+
+impl Told {
+    /// Of a run whose message file is in a folder.
+    pub(crate) fn of(
+        project: &stiction::Project,
+        report: &RunReport,
+        warnings: &[Message],
+        folder: &Path,
+    ) -> Self {
+        let log = folder.join(format!("{}.msg", project.prefix()));
+        let mut value = report.to_json();
+        value["elapsed_seconds"] = report.elapsed.into();
+        Self {
+            report: value.to_string(),
+            messages: messages(warnings.iter().chain(&report.messages)),
+            log: std::fs::read_to_string(log).unwrap_or_default(),
+        }
+    }
+
+    /// With the rows.
+    pub(crate) fn with<'py>(
+        self,
+        py: Python<'py>,
+        table: &Table,
+        stopped: Option<PyErr>,
+    ) -> PyResult<Ran<'py>> {
+        Ok((
+            table.entities(),
+            table.times(py)?,
+            table.kinds(py),
+            table.columns(py)?,
+            self.report,
+            self.messages,
+            self.log,
+            stopped,
+        ))
+    }
+}
 
 /// Runs a model: with a folder results go there in the formats (`res`, `parquet`, `csv`), without one
 /// there are no files. `facts` stand in the metadata of tables, `told` is called with time and end
@@ -107,26 +152,11 @@ pub(crate) fn run<'py>(
         let given = facts.iter().map(|(name, fact)| (&**name, fact.clone()));
         let facts: Vec<_> = own.into_iter().chain(given).collect();
         tables.finish(&facts).map_err(output_failure)?;
-        let log = into.join(format!("{}.msg", project.prefix()));
-        let log = std::fs::read_to_string(log).unwrap_or_default();
-        let told = messages(session.warnings().iter().chain(&report.messages));
-        let mut value = report.to_json();
-        value["elapsed_seconds"] = report.elapsed.into();
-        PyResult::Ok((value.to_string(), told, log))
+        PyResult::Ok(Told::of(&project, &report, session.warnings(), into))
     });
-    let (report, messages, log) = ran?;
-    Ok((
-        table.entities(),
-        table.times(py)?,
-        table.kinds(py),
-        table.columns(py)?,
-        report,
-        messages,
-        log,
-        monitor.stopped,
-    ))
+    ran?.with(py, &table, monitor.stopped)
 }
 
-fn output_failure(error: OutputError) -> PyErr {
+pub(crate) fn output_failure(error: OutputError) -> PyErr {
     OutputFailure::new_err((error.path, error.cause))
 }

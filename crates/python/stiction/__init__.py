@@ -12,8 +12,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .diagnostics import (
+    ClusterError,
     Diagnostic,
     Diagnostics,
+    FolderError,
     InputError,
     OutputError,
     ParameterError,
@@ -22,6 +24,7 @@ from .diagnostics import (
 )
 from .model import Element, Friction, Joint, Model, Part, Value, load, loads
 from .result import REGIMES, FrictionResult, Interrupted, Result
+from .study import Failure, LogUniform, Study, Uniform, sweep
 from .units import Quantity
 
 if TYPE_CHECKING:
@@ -29,14 +32,18 @@ if TYPE_CHECKING:
 
 __all__ = [
     "REGIMES",
+    "ClusterError",
     "Diagnostic",
     "Diagnostics",
     "Element",
+    "Failure",
+    "FolderError",
     "Friction",
     "FrictionResult",
     "InputError",
     "Interrupted",
     "Joint",
+    "LogUniform",
     "Model",
     "OutputError",
     "ParameterError",
@@ -44,11 +51,14 @@ __all__ = [
     "Quantity",
     "Result",
     "StictionError",
+    "Study",
+    "Uniform",
     "UnknownName",
     "Value",
     "laws",
     "load",
     "loads",
+    "sweep",
 ]
 
 

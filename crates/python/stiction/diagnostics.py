@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from html import escape
 from typing import Any, overload
-
-from . import _native
 
 
 @dataclass(frozen=True)
@@ -127,14 +124,9 @@ class OutputError(StictionError, OSError):
     """Results that cannot be written."""
 
 
-@contextmanager
-def typed_errors() -> Iterator[None]:
-    """Raises what fails in Rust as the exceptions of this module."""
-    try:
-        yield
-    except _native.InputFailure as failure:
-        text, messages = failure.args
-        raise InputError(text.rstrip(), Diagnostics._of_json(messages)) from None
-    except _native.OutputFailure as failure:
-        path, cause = failure.args
-        raise OutputError(f"cannot write {path}: {cause}") from None
+class FolderError(OutputError):
+    """A folder that cannot take a study: it is in use, or holds another one."""
+
+
+class ClusterError(StictionError, ConnectionError):
+    """A cluster that does not answer, or has no workers any more."""

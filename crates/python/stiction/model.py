@@ -13,19 +13,16 @@ from html import escape
 from typing import Any, Union
 
 from . import _native
-from .diagnostics import Diagnostics, ParameterError, typed_errors
-from .names import Named, unknown
+from .diagnostics import Diagnostics, ParameterError
+from .names import Named, typed_errors, unknown
 from .result import Result
-from .units import Quantity, converted, of_dimension
+from .units import Quantity, converted
 
 Value = Union[float, Quantity, str, Sequence[Union[float, str]]]
 """What an argument of a statement can be given: a number (model units), a number with its unit, a
 word or expression, or several of them."""
 
 _FORMATS = ("res", "parquet", "csv")
-
-#: Statements that a model has at most one of, so that they have no id.
-_SINGLE = ("ACCGRAV", "EQUILIBRIUM", "INTEGRATOR", "PREFERENCES")
 
 
 @dataclass(frozen=True)
@@ -177,10 +174,7 @@ class Model:
         frictions = []
         for said in self._about["frictions"]:
             arguments = said["arguments"]
-            units = {
-                name: of_dimension(dimension, self._about["units"])
-                for name, _, dimension, _ in arguments
-            }
+            units = {name: unit for name, _, unit, _ in arguments}
             frictions.append(
                 Friction(
                     **heads[said["id"]],
@@ -226,40 +220,9 @@ class Model:
         return Model(project, self._path, self._changes + statements)
 
     def _change(self, place: str, value: Value) -> str:
-        name, dot, keyword = place.rpartition(".")
-        if not dot or not keyword or not name:
-            raise ParameterError(f'{place!r} names no argument; write it as "slide.mu_static"')
-        if name.upper() in _SINGLE:
-            return f"{name.upper()}/{keyword.upper()}={_written(place, value, None)}"
-        statement, id = self._find(name)
-        unit = None
-        if statement == "FRICTION":
-            unit = self.frictions[id].units.get(keyword.lower())
-        return f"{statement}/{id}, {keyword.upper()}={_written(place, value, unit)}"
-
-    def _find(self, name: str) -> tuple[str, int]:
-        """The element of that name; the friction of a joint of that name."""
-        wanted = name.lower()
-        found: dict[tuple[str, int], None] = {}
-        names = []
-        for said in self._about["elements"]:
-            statement, id = said["statement"], said["id"]
-            known = [said["name"], said["path"] or "", f"{statement}/{id}"]
-            names += known[::2]
-            if wanted not in (one.lower() for one in known):
-                continue
-            if statement == "JOINT":
-                own = [one["id"] for one in self._about["frictions"] if one["joint"] == id]
-                found.update({("FRICTION", friction): None for friction in own})
-                if own:
-                    continue
-            found[statement, id] = None
-        if not found:
-            raise unknown("element", name, names)
-        if len(found) > 1:
-            several = ", ".join(f"{statement}/{id}" for statement, id in found)
-            raise ParameterError(f"{name!r} is the name of {several}; write one of these instead")
-        return next(iter(found))
+        with typed_errors():
+            change, unit = self._project.argument(place)
+        return f"{change}={_written(place, value, unit)}"
 
     def run(
         self,

@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Generic, TypeVar
 
-from .diagnostics import UnknownName
+from . import _native
+from .diagnostics import (
+    Diagnostics,
+    FolderError,
+    InputError,
+    OutputError,
+    ParameterError,
+    UnknownName,
+)
 
 T = TypeVar("T")
 
@@ -73,3 +82,23 @@ class Named(Mapping[str, T], Generic[T]):
 
     def __repr__(self) -> str:
         return f"<{len(self)} {self._what}s: {', '.join(self._things)}>"
+
+
+@contextmanager
+def typed_errors() -> Iterator[None]:
+    """Raises what fails in Rust as the exceptions of this module."""
+    try:
+        yield
+    except _native.InputFailure as failure:
+        text, messages = failure.args
+        raise InputError(text.rstrip(), Diagnostics._of_json(messages)) from None
+    except _native.OutputFailure as failure:
+        path, cause = failure.args
+        raise OutputError(f"cannot write {path}: {cause}") from None
+    except _native.NameFailure as failure:
+        what, name, known = failure.args
+        raise unknown(what, name, known) from None
+    except _native.ValueFailure as failure:
+        raise ParameterError(failure.args[0]) from None
+    except _native.FolderFailure as failure:
+        raise FolderError(failure.args[0]) from None

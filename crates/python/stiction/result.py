@@ -77,12 +77,18 @@ class Result:
         self._about = about
 
     @classmethod
-    def _of_run(cls, ran: tuple[Any, ...], model: Model, options: dict[str, Any]) -> Result:
+    def _of_run(
+        cls,
+        ran: tuple[Any, ...],
+        model: Model,
+        options: dict[str, Any],
+        checksum: str | None = None,
+    ) -> Result:
         entities, times, kinds, columns, report, messages, log, stopped = ran
         about = {
             "title": model.title,
             "units": model.units,
-            "model": model.checksum,
+            "model": checksum or model.checksum,
             "frictions": {friction.id: friction.joint for friction in model.frictions.values()},
             "joints": {f.id: model.joints[f.joint].kind for f in model.frictions.values()},
             "options": options,

@@ -10,6 +10,7 @@
 //! | step | file |
 //! |---|---|
 //! | files to a checked dataset and commands | `files.rs`, `loader.rs`, `project.rs` |
+//! | arguments by name, units of numbers | `argument.rs`, `quantity.rs` |
 //! | dataset to mechanics | `lower/` |
 //! | a run from outside | `session.rs` |
 //! | what the commands will ask for | `survey.rs` |
@@ -45,6 +46,7 @@
 //! ```
 
 mod about;
+mod argument;
 mod balance;
 mod channels;
 mod check;
@@ -63,6 +65,7 @@ mod loader;
 mod lower;
 mod message;
 mod project;
+mod quantity;
 mod recorder;
 mod refusal;
 mod report;
@@ -81,6 +84,7 @@ mod text_table;
 mod warnings;
 mod wrenches;
 
+pub use argument::{Argument, ArgumentError};
 pub use balance::{EnergyBalance, EnergyTerm};
 pub use check::{CheckReport, check};
 pub use checkpoint::{CheckpointError, ResumeError};
@@ -91,6 +95,7 @@ pub use files::{Disk, Files};
 pub use levels::{LevelError, Levels};
 pub use message::{InputError, Message};
 pub use project::Project;
+pub use quantity::{conversion, unit_of};
 pub use report::{FrictionReport, friction_table};
 pub use session::{
     FailedCommand, Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch,

@@ -7,14 +7,15 @@ use std::time::Duration;
 use mechanics::Statistics;
 
 use crate::balance::EnergyBalance;
+use crate::channels::Channels;
 use crate::checkpoint::{Checkpoint, Job, ResumeError};
 use crate::eigensolution::ModeReport;
-use crate::lower::Measures;
+use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
 use crate::project::Project;
 use crate::report::FrictionReport;
 use crate::runner::Runner;
-use crate::sink::Sink;
+use crate::sink::{Layout, Sink};
 
 /// What can be said about a run beyond its files.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -170,6 +171,26 @@ impl<'a> Session<'a> {
     #[must_use]
     pub fn warnings(&self) -> &[Message] {
         &self.warnings
+    }
+
+    /// What the rows of the results of a run will hold.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        let project = self.project;
+        let mut measures = self.measures.clone();
+        let source = project.model_source().name();
+        let lowered = lower(
+            project.dataset(),
+            source,
+            &mut measures,
+            &Mode::Dynamic.into(),
+        );
+        let units = project.unit_names();
+        // The survey has lowered the same dataset and found its channels.
+        let channels = lowered
+            .ok()
+            .and_then(|lowered| Channels::new(project.dataset(), &lowered, &units).ok());
+        channels.map_or_else(Layout::new, |channels| channels.layout().clone())
     }
 
     /// Carries out the commands; writes `PREFIX.res`, `PREFIX.req` and `PREFIX.msg` into `folder`,

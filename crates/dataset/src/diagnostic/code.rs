@@ -206,4 +206,8 @@ codes! {
     BristlesNotPassive = "bristles-not-passive", "Lower DAMPING_COEFFICIENT.";
     /// More energy is unaccounted for than the error of the integrator explains.
     EnergyBalance = "energy-balance", "Give INTEGRATOR a smaller ERROR.";
+
+    // Studies.
+    /// A study file that cannot be used: it is no TOML, a name in it is unknown, or a number is out of its range.
+    StudyFile = "study-file", "Write it as docs/studies.md shows; the message names what is wrong and what may be meant.";
 }

@@ -49,6 +49,8 @@ pub struct Tally {
     pub stick_end: Option<f64>,
     /// Time spent sticking.
     pub stuck_time: f64,
+    /// Length of the longest stick that has ended.
+    pub longest_stick: f64,
     /// Largest creep, or largest bristle deflection of LuGre.
     pub largest_creep: f64,
     /// How far the surfaces moved while they stuck beyond what the bristles gave way: the drift of
@@ -203,6 +205,7 @@ impl Memory {
             (true, false) => {
                 tally.stuck_time += end.size * part;
                 tally.stick_end = Some(change);
+                tally.longest_stick = tally.longest_stick.max(change - tally.stick_start);
             }
             (false, true) => {
                 tally.stuck_time += end.size * (1.0 - part);

@@ -12,11 +12,15 @@ use stiction::{Message, Project, RunOptions, Session};
 use crate::shared::{GoOn, scratch_folder};
 
 /// Codes whose example cannot be a file of the repository.
-const WITHOUT_EXAMPLE: [(Code, &str); 2] = [
+const WITHOUT_EXAMPLE: [(Code, &str); 3] = [
     (Code::TooLarge, "A file of 4 GB gives it."),
     (
         Code::StepReactions,
         "No small model is known that gives it for sure.",
+    ),
+    (
+        Code::StudyFile,
+        "`stiction sweep` says it of a study file, which is neither a dataset nor a command file.",
     ),
 ];
 

@@ -1,0 +1,96 @@
+"""Studies on a Dask cluster of a scheduler and worker processes that the tests start on loopback."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+import pytest
+import stiction
+from distributed import Client
+from models import BLOCK
+from stiction import cluster
+
+MODEL = stiction.loads(BLOCK)
+OUTPUTS: dict[str, Any] = {
+    "peak": "max_abs(guide.force)",
+    "stick": "longest_stick(guide)",
+    "last": lambda result: result.friction["guide"].force[-1],
+}
+#: A case takes about a millisecond.
+SETTINGS: dict[str, Any] = {"outputs": OUTPUTS, "end": 0.02, "dtout": 0.01}
+
+
+class Cluster:
+    """A scheduler and its workers, each a process."""
+
+    def __init__(self, folder: Path, workers: int) -> None:
+        self.folder = folder
+        file = folder / "scheduler.json"
+        self.scheduler = self.start(
+            "distributed.cli.dask_scheduler", "--port", "0", "--scheduler-file", str(file), "--no-dashboard"
+        )
+        self.workers = [
+            self.start(
+                "distributed.cli.dask_worker",
+                *("--scheduler-file", str(file), "--nthreads", "1", "--no-dashboard", "--no-nanny"),
+                *("--local-directory", str(folder), "--death-timeout", "60"),
+            )
+            for _ in range(workers)
+        ]
+        self.client = Client(scheduler_file=str(file), timeout="60s")
+        self.client.wait_for_workers(workers, timeout=60)
+
+    def start(self, module: str, *arguments: str) -> subprocess.Popen[bytes]:
+        environment = {**os.environ, "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "2s"}
+        command = [sys.executable, "-m", module, "--host", "127.0.0.1", *arguments]
+        with (self.folder / "log.txt").open("ab") as log:
+            return subprocess.Popen(command, stdout=log, stderr=log, env=environment)
+
+    def close(self) -> None:
+        self.client.close()
+        for process in [*self.workers, self.scheduler]:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def four(tmp_path: Path) -> Iterator[Cluster]:
+    started = Cluster(tmp_path, 4)
+    yield started
+    started.close()
+
+
+def columns(study: stiction.Study) -> list[tuple[str, str, Any]]:
+    """All columns, bit for bit."""
+    raw: list[tuple[str, str, Any]] = study._raw[0]
+    return raw
+
+
+def test_a_study_survives_the_loss_of_a_worker(four: Cluster, tmp_path: Path) -> None:
+    """2,000 cases on four workers, of which one is killed: each once, and the table of one core."""
+    parameters = {"guide.mu_static": stiction.Uniform(0.25, 0.4), "guide.mu_dynamic": stiction.Uniform(0.1, 0.2)}
+    design: dict[str, Any] = {"design": "latin_hypercube", "cases": 2000, **SETTINGS}
+    killed: list[int] = []
+
+    def kill(done: int, count: int) -> None:
+        if done > 200 and not killed:
+            killed.append(done)
+            four.workers[0].send_signal(signal.SIGKILL)
+
+    study = stiction.sweep(
+        MODEL, parameters, client=four.client, directory=tmp_path / "cluster", progress=kill, **design
+    )
+    assert killed and killed[0] < 2000 and four.workers[0].wait() == -signal.SIGKILL
+    assert study["case"].tolist() == list(range(2000)) and study.success
+    serial = stiction.sweep(MODEL, parameters, workers=1, directory=tmp_path / "serial", **design)
+    assert columns(study) == columns(serial)
+    files = [tmp_path / name / "cases.parquet" for name in ("cluster", "serial")]
+    assert files[0].read_bytes() == files[1].read_bytes()
+    assert len(pandas.read_parquet(files[0])) == 2000

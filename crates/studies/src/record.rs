@@ -1,0 +1,319 @@
+//! What is known of the cases of a study, in memory and in a folder.
+//!
+//! ```text
+//! DIR/study.json            what study it is
+//! DIR/study.lock            held while a process works on the study
+//! DIR/parts/NUMBER.parquet  cases that are done, while the study goes on
+//! DIR/cases.parquet         all cases in their order, once the study is done; the parts go then
+//! ```
+//!
+//! Every file is written under another name, brought to the disk and renamed, so that what has its
+//! name is whole. One process writes; a case that is recorded already is not recorded again.
+
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use columnar::WholeTable;
+use serde_json::Value as Json;
+use stiction::OutputError;
+
+use crate::study::{Row, Study};
+use crate::table;
+
+/// Wall time after which cases that are done are written: what a computer that fails loses.
+const INTERVAL: Duration = Duration::from_secs(2);
+/// So many cases are written at once at the latest.
+const BATCH: usize = 10_000;
+
+/// A folder that cannot take a study.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Another process works on the study in it.
+    #[error("{0} is in use by another process that works on its study")]
+    InUse(String),
+    /// It holds something else, or what cannot be read.
+    #[error("{folder}: {cause}")]
+    Refused {
+        /// The folder.
+        folder: String,
+        /// Why, and what to do.
+        cause: String,
+    },
+}
+
+/// The cases that are done.
+#[derive(Debug)]
+pub struct Record {
+    study: Arc<Study>,
+    rows: Vec<Option<Row>>,
+    done: usize,
+    folder: Option<Folder>,
+}
+
+#[derive(Debug)]
+struct Folder {
+    path: PathBuf,
+    /// Its lock goes when it is closed, however the process ends.
+    _lock: File,
+    /// Cases that are not in a part yet.
+    pending: Vec<usize>,
+    written: Instant,
+    /// Number of the next part.
+    next: usize,
+}
+
+impl Record {
+    /// Of a study in memory alone.
+    #[must_use]
+    pub fn new(study: Arc<Study>) -> Self {
+        Self {
+            rows: vec![None; study.cases()],
+            study,
+            done: 0,
+            folder: None,
+        }
+    }
+
+    /// Of a study in a folder, which is made where it is not there. With `resume` cases that are done
+    /// there are known; without it the folder must be empty.
+    ///
+    /// # Errors
+    /// A folder in use, of another study or with other files, and files that cannot be written.
+    pub fn open(study: Arc<Study>, path: &Path, resume: bool) -> Result<Self, RecordError> {
+        let refused = |cause: String| RecordError::Refused {
+            folder: path.display().to_string(),
+            cause,
+        };
+        let wrong = |path: &Path, error: &std::io::Error| OutputError {
+            path: path.display().to_string(),
+            cause: error.to_string(),
+        };
+        std::fs::create_dir_all(path).map_err(|error| wrong(path, &error))?;
+        let lock = path.join("study.lock");
+        let file = File::options().create(true).append(true).open(&lock);
+        let file = file.map_err(|error| wrong(&lock, &error))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(RecordError::InUse(path.display().to_string()));
+            }
+            Err(TryLockError::Error(error)) => return Err(wrong(&lock, &error).into()),
+        }
+        let manifest = path.join("study.json");
+        let parts = path.join("parts");
+        if manifest.exists() {
+            if !resume {
+                return Err(refused(
+                    "it holds a study already; resume that, or take another folder".to_owned(),
+                ));
+            }
+            let known = std::fs::read_to_string(&manifest);
+            let known = known.map_err(|error| refused(format!("study.json: {error}")))?;
+            compare(&known, &study.manifest()).map_err(refused)?;
+        } else {
+            let entries = std::fs::read_dir(path).map_err(|error| wrong(path, &error))?;
+            let mut names = entries.flatten().map(|entry| entry.file_name());
+            if let Some(other) =
+                names.find(|name| name != "study.lock" && name != "study.json.part")
+            {
+                let name = other.to_string_lossy();
+                return Err(refused(format!(
+                    "it holds {name}; take an empty folder, or a new one"
+                )));
+            }
+            write_text(&manifest, &format!("{:#}\n", study.manifest()))?;
+        }
+        std::fs::create_dir_all(&parts).map_err(|error| wrong(&parts, &error))?;
+        let mut record = Self::new(study);
+        let next = record.read(path).map_err(refused)?;
+        record.folder = Some(Folder {
+            path: path.to_owned(),
+            _lock: file,
+            pending: Vec::new(),
+            written: Instant::now(),
+            next,
+        });
+        Ok(record)
+    }
+
+    /// Takes over what is done in a folder; returns the number of the next part.
+    fn read(&mut self, path: &Path) -> Result<usize, String> {
+        let whole = path.join("cases.parquet");
+        if whole.exists() {
+            self.read_table(&whole)?;
+        }
+        let mut next = 0;
+        let parts = std::fs::read_dir(path.join("parts")).map_err(|error| error.to_string())?;
+        for entry in parts.flatten() {
+            let part = entry.path();
+            if part
+                .extension()
+                .is_some_and(|extension| extension == "parquet")
+            {
+                self.read_table(&part)?;
+                let number = part
+                    .file_stem()
+                    .and_then(|stem| stem.to_str()?.parse().ok());
+                next = next.max(number.unwrap_or(0) + 1);
+            }
+        }
+        Ok(next)
+    }
+
+    fn read_table(&mut self, path: &Path) -> Result<(), String> {
+        let shown = path.display();
+        let table = columnar::read(path).map_err(|e| format!("{shown}: {}", e.cause))?;
+        let rows = table::rows(&self.study, &table).map_err(|cause| format!("{shown}: {cause}"))?;
+        rows.into_iter().for_each(|row| {
+            self.take(row);
+        });
+        Ok(())
+    }
+
+    /// Keeps a row; returns whether its case was not done yet.
+    fn take(&mut self, row: Row) -> bool {
+        let case = row.case;
+        let new = self.rows.get(case).is_some_and(Option::is_none);
+        if new {
+            self.rows[case] = Some(row);
+            self.done += 1;
+        }
+        new
+    }
+
+    /// Records a case that is done, once; writes now and then what is not written yet.
+    ///
+    /// # Errors
+    /// A part that cannot be written.
+    pub fn push(&mut self, row: Row) -> Result<(), RecordError> {
+        let case = row.case;
+        if self.take(row)
+            && let Some(folder) = &mut self.folder
+        {
+            folder.pending.push(case);
+            if folder.pending.len() >= BATCH || folder.written.elapsed() >= INTERVAL {
+                self.flush()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what is not written yet.
+    ///
+    /// # Errors
+    /// A part that cannot be written.
+    pub fn flush(&mut self) -> Result<(), RecordError> {
+        let Some(folder) = &mut self.folder else {
+            return Ok(());
+        };
+        if !folder.pending.is_empty() {
+            folder.pending.sort_unstable();
+            let rows = folder
+                .pending
+                .iter()
+                .filter_map(|case| self.rows[*case].as_ref());
+            let rows: Vec<&Row> = rows.collect();
+            let path = folder
+                .path
+                .join("parts")
+                .join(format!("{:06}.parquet", folder.next));
+            columnar::write(&path, &table::table(&self.study, &rows))?;
+            folder.pending.clear();
+            folder.next += 1;
+        }
+        folder.written = Instant::now();
+        Ok(())
+    }
+
+    /// Writes what is not written yet and, where every case is done, the table of all of them.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn finish(&mut self) -> Result<(), RecordError> {
+        self.flush()?;
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        if self.done == self.rows.len() {
+            let whole = folder.path.join("cases.parquet");
+            if !whole.exists() {
+                columnar::write(&whole, &self.table())?;
+            }
+            // The table has all that is in the parts.
+            let _ = std::fs::remove_dir_all(folder.path.join("parts"));
+        }
+        Ok(())
+    }
+
+    /// The study that it is of.
+    #[must_use]
+    pub fn study(&self) -> &Arc<Study> {
+        &self.study
+    }
+
+    /// The cases that are not done.
+    #[must_use]
+    pub fn open_cases(&self) -> Vec<usize> {
+        let open = |case: &usize| self.rows[*case].is_none();
+        (0..self.rows.len()).filter(open).collect()
+    }
+
+    /// Number of cases that are done, and of those that have failed.
+    #[must_use]
+    pub fn counts(&self) -> (usize, usize) {
+        let failed = self.rows.iter().flatten().filter(|row| !row.success);
+        (self.done, failed.count())
+    }
+
+    /// The rows that are there, in the order of the cases.
+    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().flatten()
+    }
+
+    /// The table of the rows that are there.
+    #[must_use]
+    pub fn table(&self) -> WholeTable {
+        let rows: Vec<&Row> = self.rows().collect();
+        table::table(&self.study, &rows)
+    }
+}
+
+/// Whether a folder holds the same study.
+fn compare(known: &str, study: &Json) -> Result<(), String> {
+    let known: Json = serde_json::from_str(known).map_err(|e| format!("study.json: {e}"))?;
+    let names = study
+        .as_object()
+        .into_iter()
+        .flat_map(|object| object.keys());
+    let differs: Vec<&str> = names
+        .filter(|name| known[name] != study[name])
+        .map(|n| &**n)
+        .collect();
+    match differs.is_empty() {
+        true => Ok(()),
+        false => Err(format!(
+            "it holds another study ({} differ); take another folder",
+            differs.join(", ")
+        )),
+    }
+}
+
+/// Writes a text to a file that is there as a whole or not at all.
+fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    let part = path.with_added_extension("part");
+    let written = std::fs::write(&part, text)
+        .and_then(|()| File::open(&part)?.sync_all())
+        .and_then(|()| std::fs::rename(&part, path));
+    written.map_err(|error| {
+        let _ = std::fs::remove_file(&part);
+        OutputError {
+            path: path.display().to_string(),
+            cause: error.to_string(),
+        }
+    })
+}
