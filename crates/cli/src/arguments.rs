@@ -48,6 +48,13 @@ pub(crate) enum Command {
     /// stacked areas; energy, the energy balance of the model over time. docs/plots.md shows them. A
     /// file that is there is replaced only with --force.
     Plot(PlotArguments),
+    /// Run a model with many values of its arguments
+    ///
+    /// A study file names the model, parameters with values or ranges, a design (factorial, list,
+    /// latin_hypercube, sobol) and outputs such as longest_stick(guide); docs/studies.md describes
+    /// it. The table, cases.parquet, has a row for each case. Cases that fail are rows with their
+    /// message, and the study ends with 0 all the same.
+    Sweep(SweepArguments),
     /// Lay datasets and command files out anew, without changing what they say
     ///
     /// In a dataset the head of a statement and each argument get a line of their own; a command
@@ -248,6 +255,43 @@ pub(crate) enum LoopAxis {
     Velocity,
     /// How far they have moved.
     Displacement,
+}
+
+/// Run a model with many values of its arguments.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:
+  stiction sweep study.toml
+  stiction sweep study.toml --workers 8 -o results
+  stiction sweep study.toml -o results --resume
+  stiction sweep study.toml --cluster tcp://10.0.0.1:8786",
+    after_long_help = EXIT_CODES
+)]
+pub(crate) struct SweepArguments {
+    /// Study file (.toml)
+    #[arg(value_name = "STUDY")]
+    pub(crate) study: PathBuf,
+    /// Folder for the table [default: STUDY-study in the working directory]
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Cases that run at a time [default: one for each core]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) workers: Option<u32>,
+    /// Run the cases on the Dask cluster whose scheduler has this address
+    ///
+    /// Needs python3 with the package stiction and its extra: pip install 'stiction[dask]'.
+    #[arg(long, value_name = "ADDRESS", conflicts_with = "workers")]
+    pub(crate) cluster: Option<String>,
+    /// Go on with the study in the folder: what is done there is not run again
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// How progress is shown, on standard error
+    ///
+    /// auto: a bar on a terminal, else nothing; plain: lines of text; json: one JSON object a
+    /// line; none: nothing. A cluster has lines at a time for the bar.
+    #[arg(long, value_enum, default_value_t = ProgressKind::Auto)]
+    pub(crate) progress: ProgressKind,
 }
 
 /// Lay datasets and command files out anew, without changing what they say.

@@ -27,6 +27,13 @@ impl Exit {
             Self::Interrupted => 130,
         }
     }
+
+    /// That of another program with the same numbers; others mean that it could not do its work.
+    pub(crate) fn of_code(code: i32) -> Self {
+        let all = [Self::Success, Self::Input, Self::Interrupted];
+        let found = all.into_iter().find(|exit| i32::from(exit.code()) == code);
+        found.unwrap_or(Self::Usage)
+    }
 }
 
 /// Writes to standard error; a closed pipe is no reason to fail.

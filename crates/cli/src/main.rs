@@ -13,6 +13,7 @@ mod progress;
 mod record;
 mod replace;
 mod run;
+mod sweep;
 
 use std::process::ExitCode;
 
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         Command::Explain(arguments) => explain::explain(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Convert(arguments) => convert::convert(&arguments),
         Command::Fmt(arguments) => fmt::fmt(&arguments),
     };

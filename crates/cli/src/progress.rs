@@ -80,6 +80,50 @@ fn bar() -> ProgressBar {
     bar
 }
 
+impl Monitor {
+    /// Shows a share of the way, with a text on the bar or with a line, of JSON or not; returns
+    /// whether to go on.
+    fn show(
+        &mut self,
+        share: f64,
+        text: impl FnOnce() -> String,
+        line: impl FnOnce(bool) -> String,
+    ) -> bool {
+        match &mut self.display {
+            Display::None => {}
+            Display::Bar(bar) => {
+                bar.set_position((share * BAR as f64) as u64);
+                bar.set_message(text());
+            }
+            Display::Lines { json, last } => {
+                if last.is_none_or(|last| last.elapsed() >= INTERVAL) || share >= 1.0 {
+                    *last = Some(Instant::now());
+                    complain(&line(*json));
+                }
+            }
+        }
+        !self.interrupted.load(Ordering::SeqCst)
+    }
+
+    /// Shows how far a study is; returns whether to go on.
+    pub(crate) fn cases(&mut self, done: usize, failed: usize, cases: usize) -> bool {
+        let elapsed = self.started.elapsed().as_secs_f64();
+        let text = || format!("{done} of {cases} cases, {failed} failed");
+        self.show(done as f64 / cases.max(1) as f64, text, |json| match json {
+            true => {
+                let value = serde_json::json!({
+                    "done": done,
+                    "failed": failed,
+                    "cases": cases,
+                    "elapsed": elapsed,
+                });
+                format!("{value}\n")
+            }
+            false => format!("{done} of {cases} cases, {failed} failed, {elapsed:.1} s\n"),
+        })
+    }
+}
+
 impl Watch for Monitor {
     fn progress(&mut self, progress: &Progress) -> bool {
         let share = if progress.end > 0.0 {
@@ -89,23 +133,9 @@ impl Watch for Monitor {
         };
         let elapsed = self.started.elapsed().as_secs_f64();
         let speed = progress.time / elapsed.max(1e-9);
-        match &mut self.display {
-            Display::None => {}
-            Display::Bar(bar) => {
-                bar.set_position((share * BAR as f64) as u64);
-                bar.set_message(format!(
-                    "t = {:.6} of {:.6}, {speed:.3}/s",
-                    progress.time, progress.end
-                ));
-            }
-            Display::Lines { json, last } => {
-                if last.is_none_or(|last| last.elapsed() >= INTERVAL) || share >= 1.0 {
-                    *last = Some(Instant::now());
-                    complain(&line(*json, progress, elapsed, speed));
-                }
-            }
-        }
-        !self.interrupted.load(Ordering::SeqCst)
+        let (time, end) = (progress.time, progress.end);
+        let text = || format!("t = {time:.6} of {end:.6}, {speed:.3}/s");
+        self.show(share, text, |json| line(json, progress, elapsed, speed))
     }
 }
 

@@ -9,7 +9,7 @@
 //! beside it: title, units by column, and what the caller adds. A file that is being written ends in
 //! `.part` and gets its name once it is whole.
 //!
-//! A table that is there as a whole is written and read by [`write`] and [`read`].
+//! A table that is there as a whole is written and read by [`write()`] and [`read()`].
 //!
 //! ```
 //! use columnar::{Format, Tables};

@@ -80,7 +80,7 @@ fn sync_folder(path: &Path) -> std::io::Result<()> {
     }
 }
 
-/// Reads a Parquet file that [`write`] has written.
+/// Reads a Parquet file that [`write()`] has written.
 ///
 /// # Errors
 /// A file that is not there, that is damaged, or that holds other types.

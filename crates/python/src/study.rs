@@ -362,6 +362,11 @@ impl Record {
         self.with(py, |record| record.counts())
     }
 
+    /// What a program says at the end.
+    fn summary(&self, py: Python<'_>, folder: PathBuf, seconds: f64) -> String {
+        self.with(py, |record| record.summary(&folder, seconds))
+    }
+
     /// Records cases that are done.
     fn push(&self, py: Python<'_>, rows: Vec<PythonRow>) -> PyResult<()> {
         let rows = rows

@@ -59,8 +59,7 @@ def run_on(
     try:
         while batches or running:
             threads = looks.threads()
-            while batches and len(running) < AHEAD * threads:
-                cases = batches.take(threads)
+            while cases := batches.take(threads, len(running)):
                 future = client.submit(_rows, packed, cases, pure=False)
                 running[future.key] = future, cases
                 future.add_done_callback(finished.put)
@@ -85,22 +84,30 @@ class _Batches:
 
     def __init__(self, cases: list[int]) -> None:
         self._cases = deque(cases)
-        self._alone: deque[int] = deque()
+        #: Those that were with workers that have ended, to be run by themselves after all others.
+        self._suspects: deque[int] = deque()
+        self._tried_alone: list[int] = []
         #: Time and number of the cases that are done.
         self._seconds, self._done = 0.0, 0
 
     def __bool__(self) -> bool:
-        return bool(self._cases or self._alone)
+        return bool(self._cases or self._suspects)
 
-    def take(self, threads: int) -> list[int]:
-        """The next batch."""
-        if self._alone:
-            return [self._alone.popleft()]
+    def take(self, threads: int, running: int) -> list[int]:
+        """The next batch, where so many threads work on so many; empty where there is none for them."""
+        if not self._cases:
+            if running or not self._suspects or not threads:
+                return []
+            # By itself, so that it is known to be the one if its worker ends.
+            self._tried_alone = [self._suspects.popleft()]
+            return self._tried_alone
+        if running >= AHEAD * threads:
+            return []
         size = 1
         if self._done:
             size = int(BATCH_SECONDS * self._done / max(self._seconds, 1e-9))
         # The last batches are small, so that all threads end together.
-        size = max(1, min(size, len(self._cases) // (AHEAD * max(threads, 1))))
+        size = max(1, min(size, len(self._cases) // (AHEAD * threads)))
         return [self._cases.popleft() for _ in range(size)]
 
     def took(self, seconds: float, cases: int) -> None:
@@ -108,9 +115,12 @@ class _Batches:
         self._seconds += seconds
         self._done += cases
 
-    def one_by_one(self, cases: list[int]) -> None:
-        """Takes back cases, one of which ends its worker."""
-        self._alone.extend(cases)
+    def suspect(self, cases: list[int]) -> bool:
+        """Takes back cases of which one may have ended its worker; returns whether it is known which."""
+        known = self._tried_alone == cases
+        if not known:
+            self._suspects.extend(cases)
+        return known
 
 
 class _Looks:
@@ -146,8 +156,7 @@ def _answer(future: Future[Any], cases: list[int], batches: _Batches, plan: Plan
     try:
         rows, seconds = future.result()
     except KilledWorker as error:
-        if len(cases) > 1:
-            batches.one_by_one(cases)
+        if not batches.suspect(cases):
             return []
         message = f"the worker ended while it ran this case: {error}".splitlines()[0]
         return [(cases[0], [None] * len(plan.definition[4]), False, message, 0)]

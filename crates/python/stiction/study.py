@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from . import _native
 from .diagnostics import ParameterError
-from .model import Model, Value, _written
+from .model import Model, Value, _written, load
 from .names import typed_errors, unknown
 from .result import Result
 from .units import Quantity
@@ -81,6 +81,13 @@ class Plan:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Plan, (self.model, self.definition, self.functions)
+
+    @classmethod
+    def of_file(cls, path: str) -> Plan:
+        """The study of a study file, `study.toml`."""
+        with typed_errors():
+            model, definition, _ = _native.read_study(path)
+        return cls(load(model), definition, {})
 
     @cached_property
     def native(self) -> _native.Study:
@@ -171,25 +178,12 @@ def sweep(
         [(name, callable(output), _said(output)) for name, output in outputs.items()],
         (end, _whole("steps", steps), dtout, error),
     )
-    folder = None if directory is None else os.fspath(directory)
-    plan = Plan(model, definition, functions)
-    return run_plan(plan, folder, resume, workers, client, progress)
-
-
-def run_plan(
-    plan: Plan,
-    folder: str | None,
-    resume: bool,
-    workers: int | None,
-    client: Client | None,
-    progress: bool | Callable[[int, int], object],
-) -> Study:
-    """Runs the cases of a study that are not done yet."""
     if workers is not None and workers < 1:
         raise ParameterError(f"workers must be a positive number, it is {workers}")
     if workers is not None and client is not None:
         raise ParameterError("workers are those of this machine, a client has its own; give one of them")
     started = time.perf_counter()
+    plan = Plan(model, definition, functions)
     count = plan.native.cases()
 
     def told(done: int, failed: int) -> None:
@@ -199,6 +193,25 @@ def run_plan(
             text = f"\r{done} of {count} cases, {failed} failed"
             print(text, end="", file=sys.stderr, flush=True)
 
+    folder = None if directory is None else os.fspath(directory)
+    record = record_of(plan, folder, resume, workers, client, told)
+    if progress is True:
+        print(file=sys.stderr)
+    units = json.loads(plan.native.units())
+    manifest = json.loads(plan.native.manifest())
+    return Study(record.columns(), units, manifest, folder, time.perf_counter() - started)
+
+
+def record_of(
+    plan: Plan,
+    folder: str | None,
+    resume: bool,
+    workers: int | None,
+    client: Client | None,
+    told: Callable[[int, int], object],
+) -> _native.Record:
+    """Runs the cases of a study that are not done yet; `told` is called with the numbers of cases that
+    are done and that have failed."""
     with typed_errors():
         record = plan.native.record(folder, resume)
         try:
@@ -215,12 +228,7 @@ def run_plan(
             raise
         record.finish()
         told(*record.counts())
-        if progress is True:
-            print(file=sys.stderr)
-        units = json.loads(plan.native.units())
-        manifest = json.loads(plan.native.manifest())
-        elapsed = time.perf_counter() - started
-        return Study(record.columns(), units, manifest, folder, elapsed)
+    return record
 
 
 def _whole(name: str, number: int | None) -> int | None:

@@ -30,7 +30,7 @@ SETTINGS: dict[str, Any] = {"outputs": OUTPUTS, "end": 0.02, "dtout": 0.01}
 class Cluster:
     """A scheduler and its workers, each a process."""
 
-    def __init__(self, folder: Path, workers: int) -> None:
+    def __init__(self, folder: Path, workers: int, nanny: str = "--no-nanny") -> None:
         self.folder = folder
         file = folder / "scheduler.json"
         self.scheduler = self.start(
@@ -39,16 +39,21 @@ class Cluster:
         self.workers = [
             self.start(
                 "distributed.cli.dask_worker",
-                *("--scheduler-file", str(file), "--nthreads", "1", "--no-dashboard", "--no-nanny"),
+                *("--scheduler-file", str(file), "--nthreads", "1", "--no-dashboard", nanny),
                 *("--local-directory", str(folder), "--death-timeout", "60"),
             )
             for _ in range(workers)
         ]
         self.client = Client(scheduler_file=str(file), timeout="60s")
-        self.client.wait_for_workers(workers, timeout=60)
+        if workers:
+            self.client.wait_for_workers(workers, timeout=60)
 
     def start(self, module: str, *arguments: str) -> subprocess.Popen[bytes]:
-        environment = {**os.environ, "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "2s"}
+        environment = {
+            **os.environ,
+            "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "2s",
+            "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
+        }
         command = [sys.executable, "-m", module, "--host", "127.0.0.1", *arguments]
         with (self.folder / "log.txt").open("ab") as log:
             return subprocess.Popen(command, stdout=log, stderr=log, env=environment)
@@ -94,3 +99,60 @@ def test_a_study_survives_the_loss_of_a_worker(four: Cluster, tmp_path: Path) ->
     files = [tmp_path / name / "cases.parquet" for name in ("cluster", "serial")]
     assert files[0].read_bytes() == files[1].read_bytes()
     assert len(pandas.read_parquet(files[0])) == 2000
+
+
+def test_a_dead_cluster_is_an_error_and_the_study_is_resumed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A scheduler that is gone is an error, and what is done then stays."""
+    monkeypatch.setattr(cluster, "PATIENCE", 3.0)
+    one = Cluster(tmp_path, 1)
+    try:
+        parameters = {"guide.mu_static": np.linspace(0.25, 0.4, 400)}
+        folder = tmp_path / "study"
+
+        def end(done: int, count: int) -> None:
+            if done > 50:
+                one.scheduler.kill()
+
+        with pytest.raises(stiction.ClusterError):
+            stiction.sweep(
+                MODEL, parameters, client=one.client, directory=folder, progress=end, **SETTINGS
+            )
+    finally:
+        one.close()
+    done = sum(len(pandas.read_parquet(part)) for part in folder.glob("parts/*.parquet"))
+    assert 50 < done < 400
+    study = stiction.sweep(MODEL, parameters, directory=folder, resume=True, **SETTINGS)
+    assert columns(study) == columns(stiction.sweep(MODEL, parameters, **SETTINGS))
+
+
+def test_a_case_that_ends_its_worker_is_a_row(tmp_path: Path) -> None:
+    """Its worker is started again each time; the cases that were with it are run all the same."""
+    one = Cluster(tmp_path, 1, "--nanny")
+    try:
+
+        def ends(result: stiction.Result) -> float:
+            if result.options["case"] == 7:
+                os._exit(1)
+            return 0.0
+
+        parameters = {"guide.mu_static": np.linspace(0.25, 0.4, 20)}
+        settings = {**SETTINGS, "outputs": {"ends": ends}}
+        study = stiction.sweep(MODEL, parameters, client=one.client, **settings)
+    finally:
+        one.close()
+    [failure] = study.failures
+    assert failure.case == 7 and "the worker ended" in failure.message
+
+
+def test_a_cluster_without_workers_and_none_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "PATIENCE", 0.5)
+    empty = Cluster(tmp_path, 0)
+    try:
+        with pytest.raises(stiction.ClusterError, match="no workers"):
+            stiction.sweep(MODEL, {"guide.mu_static": [0.3]}, client=empty.client, **SETTINGS)
+    finally:
+        empty.close()

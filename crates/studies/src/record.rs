@@ -270,6 +270,51 @@ impl Record {
         (self.done, failed.count())
     }
 
+    /// What a program says at the end: how many cases, where they are, the first that have failed, and
+    /// the range of each output.
+    #[must_use]
+    pub fn summary(&self, folder: &Path, seconds: f64) -> String {
+        /// Failures that are told.
+        const TOLD: usize = 5;
+        let (done, failed) = self.counts();
+        let of = self.rows.len();
+        let mut text = format!("{done} of {of} cases done, {failed} failed, {seconds:.2} s\n");
+        let file = if done == of { "cases.parquet" } else { "parts" };
+        text += &format!("results in {}: {file} study.json\n", folder.display());
+        if done < of {
+            text += "the same command with --resume goes on from here\n";
+        }
+        for (place, (name, unit)) in self.study.outputs().enumerate() {
+            let values = || self.rows().filter_map(|row| row.outputs[place]);
+            if let (Some(low), Some(high)) = (values().reduce(f64::min), values().reduce(f64::max))
+            {
+                let range = format!("{name}: {low:.6} to {high:.6} {}", unit.unwrap_or_default());
+                text += &format!("{}\n", range.trim_end());
+            }
+        }
+        for row in self.rows().filter(|row| !row.success).take(TOLD) {
+            let names = self
+                .study
+                .parameters()
+                .iter()
+                .map(|parameter| &parameter.name);
+            let values = names.zip(self.study.values(row.case));
+            let values: Vec<_> = values
+                .map(|(name, value)| format!("{name} = {value}"))
+                .collect();
+            let message = row.message.lines().next().unwrap_or_default();
+            text += &format!(
+                "case {} ({}) failed: {message}\n",
+                row.case,
+                values.join(", ")
+            );
+        }
+        if failed > TOLD {
+            text += &format!("and {} more failed\n", failed - TOLD);
+        }
+        text
+    }
+
     /// The rows that are there, in the order of the cases.
     pub fn rows(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().flatten()
