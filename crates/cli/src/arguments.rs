@@ -50,10 +50,10 @@ pub(crate) enum Command {
     Plot(PlotArguments),
     /// Run a model with many values of its arguments
     ///
-    /// A study file names the model, parameters with values or ranges, a design (factorial, list,
-    /// latin_hypercube, sobol) and outputs such as longest_stick(guide); docs/studies.md describes
-    /// it. The table, cases.parquet, has a row for each case. Cases that fail are rows with their
-    /// message, and the study ends with 0 all the same.
+    /// A study file names the model, parameters with their values or ranges, how they are put
+    /// together, and outputs such as the largest force or the longest stick of a friction;
+    /// docs/studies.md describes it. The table, cases.parquet, has a row for each case. Cases that
+    /// fail are rows with their message, and the study ends with 0 all the same.
     Sweep(SweepArguments),
     /// Lay datasets and command files out anew, without changing what they say
     ///

@@ -196,7 +196,7 @@ fn what_is_wrong_with_a_study_file_is_told_with_its_place() {
             "cannot be given in meter",
         ),
         ("unit = \"um\"", "unit = \"mu\"", "7:41", "no unit"),
-        ("points = 3", "points = 1", "7:71", "at least two points"),
+        ("points = 3", "points = 1", "7:72", "at least two points"),
         ("[outputs]", "[output]", "9:2", "is outputs meant"),
         (
             "longest_stick(guide)",
