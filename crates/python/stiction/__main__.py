@@ -1,4 +1,4 @@
-"""``python3 -m stiction sweep study.toml``: what the program's ``--cluster`` starts."""
+"""`python3 -m stiction sweep study.toml`: what the program's `--cluster` starts."""
 
 from __future__ import annotations
 

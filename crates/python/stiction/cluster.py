@@ -34,7 +34,7 @@ LOOK = 1.0
 
 @contextmanager
 def connected(address: str) -> Iterator[Client]:
-    """A client of the scheduler at an address such as ``tcp://10.0.0.1:8786``."""
+    """A client of the scheduler at an address such as `tcp://10.0.0.1:8786`."""
     try:
         client = Client(address)
     except (OSError, TimeoutError, ValueError) as error:

@@ -42,7 +42,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class LogUniform:
-    """Numbers from `low` to `high` whose logarithms are all alike: ``LogUniform(1e-4, 1e-2)`` has as
+    """Numbers from `low` to `high` whose logarithms are all alike: `LogUniform(1e-4, 1e-2)` has as
     many below 1e-3 as above."""
 
     low: float
@@ -50,11 +50,11 @@ class LogUniform:
     unit: str | None = None
 
 
-#: What a parameter is given: single values, or the range that a design takes values from.
 Levels = Union[Uniform, LogUniform, Value, Iterable[Value]]
+"""What a parameter is given: single values, or the range that a design takes values from."""
 
-#: A reduction by its name, such as ``"max_abs(guide.force)"``, or a function of the result of a run.
 Output = Union[str, Callable[[Result], float]]
+"""A reduction by its name, such as `"max_abs(guide.force)"`, or a function of the result of a run."""
 
 
 @dataclass(frozen=True)
@@ -150,24 +150,24 @@ def sweep(
 ) -> Study:
     """Runs a model with many values of its arguments: a table with a row for each case.
 
-    `parameters` have the names that :meth:`Model.replace` takes; each is given its values, numbers in
-    the model's units or :class:`Quantity`, or a range, :class:`Uniform` or :class:`LogUniform`.
+    `parameters` have the names that `Model.replace` takes; each is given its values, numbers in
+    the model's units or `Quantity`, or a range, `Uniform` or `LogUniform`.
     `design` is "factorial" (every combination, the last parameter varies fastest), "list" (the first
     values of all, then the second, ...), "latin_hypercube" or "sobol" (so many `cases` out of
     ranges; `seed` decides which, of a Latin hypercube).
 
-    `outputs` are columns of the table: a function of the :class:`Result` of a run, or a reduction:
-    ``min``, ``max``, ``max_abs``, ``mean`` (over time) or ``last`` of a channel as in
-    ``"max_abs(guide.force)"``, ``stuck_share`` or ``longest_stick`` of a friction.
-    `end`, `dtout`, `steps` and `error` are those of :meth:`Model.run`.
+    `outputs` are columns of the table: a function of the `Result` of a run, or a reduction:
+    `min`, `max`, `max_abs`, `mean` (over time) or `last` of a channel as in
+    `"max_abs(guide.force)"`, `stuck_share` or `longest_stick` of a friction.
+    `end`, `dtout`, `steps` and `error` are those of `Model.run`.
 
     Cases run on all cores, or on so many `workers`, or with a `client` on a Dask cluster; the table
     is the same, bit for bit. A case that fails is a row with its message. With a `directory` each case
     is written when it is done, and `resume` goes on with a study that was begun there.
 
-    Raises :class:`UnknownName`, :class:`ParameterError` and :class:`InputError` for what cannot be
-    studied, :class:`FolderError` where the directory is in use or holds something else,
-    :class:`OutputError` where it cannot be written, :class:`ClusterError` where the cluster has gone.
+    Raises `UnknownName`, `ParameterError` and `InputError` for what cannot be
+    studied, `FolderError` where the directory is in use or holds something else,
+    `OutputError` where it cannot be written, `ClusterError` where the cluster has gone.
     """
     functions = {name: output for name, output in outputs.items() if callable(output)}
     definition: _native.Definition = (
@@ -279,7 +279,7 @@ class Study:
     """The table of a study: a row for each case, in their order.
 
     Columns are `case`, the parameters (in the model's units), the outputs, `success`, `message`,
-    `steps`, `seed` and `hash`; ``study["peak"]`` is one of them, as a numpy array. Outputs of cases
+    `steps`, `seed` and `hash`; `study["peak"]` is one of them, as a numpy array. Outputs of cases
     that have failed are not numbers (nan).
     """
 
@@ -292,14 +292,14 @@ class Study:
         elapsed: float,
     ) -> None:
         self._raw = (columns, units, manifest, directory, elapsed)
-        #: Units by column; empty for plain numbers, without those that are not known.
         self.units = dict(units)
-        #: What study it is: model, design, seed, ... as in `study.json`.
+        """Units by column; empty for plain numbers, without those that are not known."""
         self.manifest = dict(manifest)
-        #: The folder that it was written into.
+        """What study it is: model, design, seed, ... as in `study.json`."""
         self.directory = directory
-        #: Wall time, seconds.
+        """The folder that it was written into."""
         self.elapsed_seconds = elapsed
+        """Wall time, seconds."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Study, self._raw
@@ -359,7 +359,7 @@ class Study:
         )
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table; ``attrs["units"]`` has the units."""
+        """The table; `attrs["units"]` has the units."""
         import pandas
 
         frame = pandas.DataFrame(self._columns)
