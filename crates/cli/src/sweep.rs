@@ -55,7 +55,8 @@ fn here(arguments: &SweepArguments, folder: &Path) -> Exit {
         .workers
         .map_or_else(cores, |workers| workers as usize);
     let evaluate = |case: usize, scratch: &Path, stopped: &AtomicBool| {
-        Some(study.run(case, scratch, &mut Until(stopped), None)?.0)
+        let ran = study.run(case, scratch, &mut Until(stopped), None)?;
+        Ok(ran.map(|(row, _)| row))
     };
     let mut told = |record: &Record| {
         let (done, failed) = record.counts();

@@ -2,7 +2,9 @@
 
 mod shared;
 
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use shared::{code, errors, folder, stiction};
 
@@ -231,7 +233,7 @@ fn a_cluster_needs_the_python_package() {
         "sweep-cluster",
         &[("block.adm", BLOCK), ("many.toml", STUDY)],
     );
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_stiction"))
+    let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
         .args(["sweep", "many.toml", "--cluster", "tcp://127.0.0.1:1"])
         .env("PATH", &folder)
         .current_dir(&folder)
@@ -242,5 +244,54 @@ fn a_cluster_needs_the_python_package() {
         errors(&output).contains("--cluster needs python3"),
         "{}",
         errors(&output)
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_study_keeps_what_is_done() {
+    // Far more cases than can be run before the signal comes.
+    let many = STUDY.replace("points = 3", "points = 20000");
+    let folder = folder(
+        "sweep-interrupt",
+        &[("block.adm", BLOCK.to_owned()), ("many.toml", many)],
+    );
+    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(["sweep", "many.toml", "--progress", "json"])
+        .current_dir(&folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut progress = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    // Behind the warnings about the model.
+    while !line.starts_with('{') {
+        line.clear();
+        assert!(progress.read_line(&mut line).unwrap() > 0, "no progress");
+    }
+    assert!(line.starts_with("{\"cases\":80000,\"done\":"), "{line}");
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    progress.read_to_string(&mut line).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 130);
+    assert!(
+        said(&output).contains("--resume goes on from here"),
+        "{}",
+        said(&output)
+    );
+    let parts = folder.join("many-study/parts");
+    let names = std::fs::read_dir(parts)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let names: Vec<_> = names.collect();
+    assert!(
+        !names.is_empty()
+            && names
+                .iter()
+                .all(|name| name.extension().unwrap() == "parquet")
     );
 }

@@ -8,6 +8,7 @@ use columnar::Values;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use stiction::OutputError;
 use studies::{
     Cause, Definition, Design, GivenOutput, GivenParameter, Levels, Range, RecordError, Row,
     Settings, StudyError, StudyFile, Until, Value,
@@ -255,10 +256,11 @@ impl Study {
         };
         let rows = py.detach(|| {
             let scratch = tempfile::tempdir()?;
-            let rows = cases
-                .into_iter()
-                .map_while(|number| case.row(number, scratch.path(), &stopped));
-            PyResult::Ok(rows.collect::<Vec<_>>())
+            let rows = cases.into_iter().map_while(|number| {
+                let row = case.row(number, scratch.path(), &stopped);
+                row.map_err(output_failure).transpose()
+            });
+            rows.collect::<PyResult<Vec<_>>>()
         })?;
         match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             Some(error) => Err(error),
@@ -288,20 +290,27 @@ enum Answer {
 }
 
 impl Case<'_> {
-    fn row(&self, case: usize, scratch: &Path, stopped: &AtomicBool) -> Option<Row> {
+    fn row(
+        &self,
+        case: usize,
+        scratch: &Path,
+        stopped: &AtomicBool,
+    ) -> Result<Option<Row>, OutputError> {
+        let mut watch = Until(stopped);
         let Some(called) = self.called else {
-            return Some(self.study.run(case, scratch, &mut Until(stopped), None)?.0);
+            let ran = self.study.run(case, scratch, &mut watch, None)?;
+            return Ok(ran.map(|(row, _)| row));
         };
         let mut table = Table::default();
         let ran = self
             .study
-            .run(case, scratch, &mut Until(stopped), Some(&mut table))?;
-        let (mut row, Some(run)) = ran else {
-            return Some(ran.0);
+            .run(case, scratch, &mut watch, Some(&mut table))?;
+        let Some((mut row, run)) = ran else {
+            return Ok(None);
         };
-        if !row.success {
-            return Some(row);
-        }
+        let Some(run) = run.filter(|_| row.success) else {
+            return Ok(Some(row));
+        };
         let told = Told::of(&run.project, &run.report, &run.warnings, scratch);
         let answer = Python::attach(|py| {
             let ran: Ran<'_> = told.with(py, &table, None)?;
@@ -326,10 +335,10 @@ impl Case<'_> {
                 let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
                 failure.get_or_insert(error);
                 stopped.store(true, Ordering::Relaxed);
-                return None;
+                return Ok(None);
             }
         }
-        Some(row)
+        Ok(Some(row))
     }
 }
 

@@ -14,7 +14,7 @@ import cloudpickle  # type: ignore[import-untyped]
 from distributed import Client, Future, KilledWorker
 
 from . import _native
-from .diagnostics import ClusterError
+from .diagnostics import ClusterError, StictionError
 
 if TYPE_CHECKING:
     from .study import Plan
@@ -55,7 +55,8 @@ def run_on(
     finished: SimpleQueue[Future[Any]] = SimpleQueue()
     looks = _Looks(client)
     # The text of the model travels once; a worker that needs it after its holder is lost gets it anew.
-    packed = client.submit(_same, cloudpickle.dumps(plan), pure=False)
+    text = cloudpickle.dumps((plan, plan.native.manifest()))
+    packed = client.submit(_same, text, pure=False)
     try:
         while batches or running:
             threads = looks.threads()
@@ -172,8 +173,12 @@ def _same(packed: bytes) -> bytes:
 
 
 @lru_cache(maxsize=4)
-def _plan(packed: bytes) -> Any:
-    return cloudpickle.loads(packed)
+def _plan(packed: bytes) -> Plan:
+    plan: Plan
+    plan, manifest = cloudpickle.loads(packed)
+    if plan.native.manifest() != manifest:
+        raise StictionError("the worker has another version of stiction")
+    return plan
 
 
 def _rows(packed: bytes, cases: list[int]) -> tuple[list[_native.Row], float]:

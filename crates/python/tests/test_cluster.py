@@ -1,5 +1,6 @@
 """Studies on a Dask cluster of a scheduler and worker processes that the tests start on loopback."""
 
+import json
 import os
 import signal
 import subprocess
@@ -16,6 +17,7 @@ import stiction
 from distributed import Client
 from models import BLOCK
 from stiction import cluster
+from stiction.__main__ import main
 
 MODEL = stiction.loads(BLOCK)
 OUTPUTS: dict[str, Any] = {
@@ -45,6 +47,7 @@ class Cluster:
             for _ in range(workers)
         ]
         self.client = Client(scheduler_file=str(file), timeout="60s")
+        self.address = str(json.loads(file.read_text())["address"])
         if workers:
             self.client.wait_for_workers(workers, timeout=60)
 
@@ -99,6 +102,51 @@ def test_a_study_survives_the_loss_of_a_worker(four: Cluster, tmp_path: Path) ->
     files = [tmp_path / name / "cases.parquet" for name in ("cluster", "serial")]
     assert files[0].read_bytes() == files[1].read_bytes()
     assert len(pandas.read_parquet(files[0])) == 2000
+
+
+STUDY = """
+model = "block.adm"
+end = 0.02
+dtout = 0.01
+design = "sobol"
+cases = 64
+[parameters]
+guide.mu_static = { from = 0.25, to = 0.4 }
+guide.max_stiction_deformation = { from = 1, to = 100, unit = "um", spacing = "log" }
+[outputs]
+peak = "max_abs(guide.force)"
+"""
+
+
+def test_the_program_runs_a_study_file_on_a_cluster(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What `stiction sweep --cluster` starts."""
+    (tmp_path / "block.adm").write_text(BLOCK)
+    file = tmp_path / "study.toml"
+    file.write_text(STUDY)
+    folder = str(tmp_path / "results")
+    two = Cluster(tmp_path, 2)
+    try:
+        words = ["sweep", str(file), "-o", folder, "--progress", "json"]
+        words += ["--cluster", two.address]
+        assert main(words) == 0
+        said = capsys.readouterr()
+        assert said.out.startswith("64 of 64 cases done, 0 failed")
+        assert '"done": 64' in said.err
+        assert main(words) == 2 and "holds a study already" in capsys.readouterr().err
+        file.write_text(STUDY.replace("guide.force", "guide.froce"))
+        assert main(words) == 3 and "study.toml:11:8" in capsys.readouterr().err
+    finally:
+        two.close()
+    parameters: dict[str, Any] = {
+        "guide.mu_static": stiction.Uniform(0.25, 0.4),
+        "guide.max_stiction_deformation": stiction.LogUniform(1, 100, "um"),
+    }
+    settings = {**SETTINGS, "outputs": {"peak": "max_abs(guide.force)"}, "design": "sobol", "cases": 64}
+    study = stiction.sweep(MODEL, parameters, **settings)
+    frame = pandas.read_parquet(Path(folder) / "cases.parquet")
+    pandas.testing.assert_frame_equal(frame, study.to_pandas(), check_exact=True, check_dtype=False)
 
 
 def test_a_dead_cluster_is_an_error_and_the_study_is_resumed(

@@ -25,7 +25,8 @@ impl Watch for Until<'_> {
 
 /// Makes the row of a case, with a folder for its files and a flag that stops it; `None` where that
 /// has happened.
-pub type Evaluate<'a> = dyn Fn(usize, &Path, &AtomicBool) -> Option<Row> + Sync + 'a;
+pub type Evaluate<'a> =
+    dyn Fn(usize, &Path, &AtomicBool) -> Result<Option<Row>, OutputError> + Sync + 'a;
 
 /// Runs the cases that are not done, so many at a time, and records each when it is done. `told` is
 /// called now and then with the record and says whether to go on. Returns whether all cases are done.
@@ -48,7 +49,7 @@ pub fn run(
         cause: error.to_string(),
     })?;
     let (send, receive) = mpsc::channel();
-    let work = |folder: &Path, send: mpsc::Sender<Row>| {
+    let work = |folder: &Path, send: mpsc::Sender<Result<Row, OutputError>>| {
         while !stopped.load(Ordering::Relaxed) {
             let Some(case) = open.get(next.fetch_add(1, Ordering::Relaxed)) else {
                 break;
@@ -56,9 +57,9 @@ pub fn run(
             let made = catch_unwind(AssertUnwindSafe(|| evaluate(*case, folder, &stopped)));
             let failed = || {
                 let message = "internal error; please report it with the model".to_owned();
-                Some(Row::failed(*case, outputs, message, 0))
+                Ok(Some(Row::failed(*case, outputs, message, 0)))
             };
-            let Some(row) = made.unwrap_or_else(|_| failed()) else {
+            let Some(row) = made.unwrap_or_else(|_| failed()).transpose() else {
                 break;
             };
             if send.send(row).is_err() {
@@ -81,7 +82,9 @@ pub fn run(
         let mut looked = Instant::now();
         loop {
             let taken = match receive.recv_timeout(LOOK) {
-                Ok(row) => record.push(row),
+                Ok(row) => row
+                    .map_err(RecordError::from)
+                    .and_then(|row| record.push(row)),
                 Err(RecvTimeoutError::Timeout) => Ok(()),
                 Err(RecvTimeoutError::Disconnected) => break,
             };

@@ -21,7 +21,7 @@
 //! let study = std::sync::Arc::new(file.study);
 //! let mut record = Record::open(study.clone(), "results".as_ref(), false)?;
 //! let evaluate = |case: usize, scratch: &std::path::Path, stopped: &_| {
-//!     Some(study.run(case, scratch, &mut Until(stopped), None)?.0)
+//!     Ok(study.run(case, scratch, &mut Until(stopped), None)?.map(|(row, _)| row))
 //! };
 //! studies::run(&mut record, 2, &evaluate, &mut |_| true)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -174,7 +174,9 @@ pub struct Study {
     parameters: Vec<Parameter>,
     outputs: Vec<Output>,
     values: Vec<Vec<Value>>,
+    /// Checksums of the model and of all changes of it.
     model: String,
+    changes: String,
 }
 
 impl Study {
@@ -221,15 +223,22 @@ impl Study {
                 }
             });
         }
-        let study = Self {
+        let mut study = Self {
             project,
             definition,
             parameters,
             outputs,
             values,
             model,
+            changes: String::new(),
         };
         study.try_parameters()?;
+        let mut all = Sha256::new();
+        for change in (0..study.cases()).flat_map(|case| study.changes(case)) {
+            all.update(change);
+            all.update([0]);
+        }
+        study.changes = hexadecimal(&all.finalize());
         Ok(study)
     }
 
@@ -348,13 +357,6 @@ impl Study {
     /// What the study is, as JSON: `study.json` in its folder.
     #[must_use]
     pub fn manifest(&self) -> Json {
-        let mut all = Sha256::new();
-        for case in 0..self.cases() {
-            for change in self.changes(case) {
-                all.update(change);
-                all.update([0]);
-            }
-        }
         let outputs = self.definition.outputs.iter().map(|(name, output)| {
             let (GivenOutput::Reduction(text) | GivenOutput::Called(text)) = output;
             json!([name, text])
@@ -365,7 +367,7 @@ impl Study {
         manifest["seed"] = json!(self.definition.seed);
         manifest["cases"] = json!(self.cases());
         manifest["parameters"] = self.parameters.iter().map(|p| json!(p.name)).collect();
-        manifest["values"] = json!(hexadecimal(&all.finalize()));
+        manifest["values"] = json!(self.changes);
         manifest["outputs"] = outputs.collect();
         manifest
     }
@@ -384,13 +386,16 @@ impl Study {
     /// Runs a case. Files of the run go into `scratch` and are replaced by those of the next; `more`
     /// is given its rows, too. Returns `None` where `watch` has stopped it; outputs that the caller
     /// makes are `None` in the row.
+    ///
+    /// # Errors
+    /// Files that cannot be written, which is not the fault of the case.
     pub fn run(
         &self,
         case: usize,
         scratch: &Path,
         watch: &mut dyn Watch,
         more: Option<&mut dyn Sink>,
-    ) -> Option<(Row, Option<CaseRun>)> {
+    ) -> Result<Option<(Row, Option<CaseRun>)>, OutputError> {
         let failed = |message: String, steps| {
             Row::failed(
                 case,
@@ -402,7 +407,7 @@ impl Study {
         let mut project = self.project.clone();
         for change in self.changes(case) {
             if let Err(error) = project.set_as("change", &change) {
-                return Some((failed(error.to_string(), 0), None));
+                return Ok(Some((failed(error.to_string(), 0), None)));
             }
         }
         let reductions = self.outputs.iter().filter_map(|output| match output {
@@ -410,25 +415,31 @@ impl Study {
             Output::Called => None,
         });
         let mut reducer = Reducer::new(reductions.collect());
-        let ran = run(
-            &project,
-            self.definition.settings.error,
-            scratch,
-            watch,
-            &mut reducer,
-            more,
-        );
-        let (report, warnings) = match ran {
-            Ok(ran) => ran,
-            Err(message) => return Some((failed(message, 0), None)),
+        let session = match Session::new(&project) {
+            Ok(session) => session,
+            Err(error) => return Ok(Some((failed(error.to_string(), 0), None))),
         };
+        let options = RunOptions {
+            error: self.definition.settings.error,
+            text_results: false,
+            ..RunOptions::default()
+        };
+        let mut sinks: Vec<&mut dyn Sink> = vec![&mut reducer];
+        if let Some(more) = more {
+            sinks.push(more);
+        }
+        let report = session.run_into(scratch, options, watch, &mut sinks)?;
+        let warnings = session.warnings().to_vec();
         let steps = i64::try_from(report.statistics.steps.steps).unwrap_or(i64::MAX);
         let row = match &report.outcome {
-            Outcome::Interrupted => return None,
+            Outcome::Interrupted => return Ok(None),
             Outcome::Completed => {
                 let values = reducer.values(&report);
                 if values.contains(&None) {
-                    return Some((failed("the run has no outputs".to_owned(), steps), None));
+                    return Ok(Some((
+                        failed("the run has no outputs".to_owned(), steps),
+                        None,
+                    )));
                 }
                 let mut values = values.into_iter();
                 let outputs = self.outputs.iter().map(|output| match output {
@@ -453,32 +464,8 @@ impl Study {
             report,
             warnings,
         };
-        Some((row, Some(run)))
+        Ok(Some((row, Some(run))))
     }
-}
-
-/// Runs a model; returns its report and the warnings about it, or why it did not begin.
-fn run(
-    project: &Project,
-    error: Option<f64>,
-    scratch: &Path,
-    watch: &mut dyn Watch,
-    reducer: &mut Reducer<'_>,
-    more: Option<&mut dyn Sink>,
-) -> Result<(RunReport, Vec<stiction::Message>), String> {
-    let session = Session::new(project).map_err(|error| error.to_string())?;
-    let options = RunOptions {
-        error,
-        text_results: false,
-        ..RunOptions::default()
-    };
-    let mut sinks: Vec<&mut dyn Sink> = vec![reducer];
-    if let Some(more) = more {
-        sinks.push(more);
-    }
-    let report = session.run_into(scratch, options, watch, &mut sinks);
-    let report = report.map_err(|error: OutputError| error.to_string())?;
-    Ok((report, session.warnings().to_vec()))
 }
 
 fn check_settings(project: &Project, settings: &Settings) -> Result<(), StudyError> {
