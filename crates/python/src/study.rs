@@ -376,20 +376,22 @@ impl Record {
         self.with(py, |record| record.summary(&folder, seconds))
     }
 
-    /// Records cases that are done.
+    /// Records cases that are done, and writes what has waited for long.
     fn push(&self, py: Python<'_>, rows: Vec<PythonRow>) -> PyResult<()> {
-        let rows = rows
-            .into_iter()
-            .map(|(case, outputs, success, message, steps)| Row {
-                case,
-                outputs,
-                success,
-                message,
-                steps,
-            });
+        let rows = rows.into_iter();
+        let rows = rows.map(|(case, outputs, success, message, steps)| Row {
+            case,
+            outputs,
+            success,
+            message,
+            steps,
+        });
         let mut rows = rows.collect::<Vec<_>>().into_iter();
-        self.with(py, |record| rows.try_for_each(|row| record.push(row)))
-            .map_err(record_failure)
+        let recorded = self.with(py, |record| {
+            rows.try_for_each(|row| record.push(row))?;
+            record.keep_up()
+        });
+        recorded.map_err(record_failure)
     }
 
     /// Writes what is not written yet and, where all cases are done, the table of all of them.

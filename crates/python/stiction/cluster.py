@@ -67,6 +67,7 @@ def run_on(
             try:
                 future = finished.get(timeout=LOOK)
             except Empty:
+                record.push([])
                 told(*record.counts())
                 continue
             _, cases = running.pop(future.key)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import dask
 import numpy as np
 import pandas
 import pytest
@@ -135,6 +136,9 @@ def test_the_program_runs_a_study_file_on_a_cluster(
         assert said.out.startswith("64 of 64 cases done, 0 failed")
         assert '"done": 64' in said.err
         assert main(words) == 2 and "holds a study already" in capsys.readouterr().err
+        with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
+            assert main([*words[:-1], "tcp://127.0.0.1:1"]) == 2
+        assert "no Dask scheduler answers" in capsys.readouterr().err
         file.write_text(STUDY.replace("guide.force", "guide.froce"))
         assert main(words) == 3 and "study.toml:11:8" in capsys.readouterr().err
     finally:

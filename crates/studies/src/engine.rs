@@ -85,7 +85,7 @@ pub fn run(
                 Ok(row) => row
                     .map_err(RecordError::from)
                     .and_then(|row| record.push(row)),
-                Err(RecvTimeoutError::Timeout) => Ok(()),
+                Err(RecvTimeoutError::Timeout) => record.keep_up(),
                 Err(RecvTimeoutError::Disconnected) => break,
             };
             if result.is_ok() {

@@ -196,11 +196,19 @@ impl Record {
             && let Some(folder) = &mut self.folder
         {
             folder.pending.push(case);
-            if folder.pending.len() >= BATCH || folder.written.elapsed() >= INTERVAL {
-                self.flush()?;
-            }
         }
-        Ok(())
+        self.keep_up()
+    }
+
+    /// Writes what has waited for long, or is much; to be called now and then.
+    ///
+    /// # Errors
+    /// A part that cannot be written.
+    pub fn keep_up(&mut self) -> Result<(), RecordError> {
+        let due = self.folder.as_ref().is_some_and(|folder| {
+            folder.pending.len() >= BATCH || folder.written.elapsed() >= INTERVAL
+        });
+        if due { self.flush() } else { Ok(()) }
     }
 
     /// Writes what is not written yet.
