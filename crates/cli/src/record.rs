@@ -10,6 +10,7 @@ use stiction::{Message, Outcome, Project, RunReport, Severity};
 
 use crate::arguments::RunArguments;
 use crate::exit::Exit;
+use crate::replace::replace;
 
 /// What a run warns of, and what is denied of that; the error that ended it is not among them.
 pub(crate) fn beside_the_outcome(report: &RunReport) -> impl Iterator<Item = &Message> {
@@ -120,5 +121,5 @@ pub(crate) fn write(
     for (name, part) in more {
         value[name] = part;
     }
-    std::fs::write(folder.join("run.json"), format!("{value:#}\n"))
+    replace(&folder.join("run.json"), format!("{value:#}\n").as_bytes())
 }

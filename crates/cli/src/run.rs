@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use columnar::Tables;
-use stiction::{Outcome, Project, ResumeError, RunOptions, RunReport, Session, friction_table};
+use stiction::{
+    Claim, Outcome, Project, ResumeError, RunOptions, RunReport, Session, friction_table,
+};
 
 use crate::arguments::{ResultFormat, RunArguments};
 use crate::exit::{Exit, complain, say};
@@ -51,6 +53,12 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     let session = Session::new(&project).map_err(input)?;
     let folder = folder(arguments, &project)?;
+    let _claim = Claim::of(&folder).map_err(|error| usage(&error.to_string()))?;
+    if !arguments.resume {
+        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
+        columnar::clear(&folder, &["run.json", &res, &req])
+            .map_err(|error| usage(&error.to_string()))?;
+    }
     let inputs = record::inputs(&project);
     let mut monitor = Monitor::new(arguments.progress);
     let options = RunOptions {

@@ -796,3 +796,78 @@ fn the_tutorial_shows_what_the_program_says() {
     }
     assert_eq!(shown, 4);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_folder_in_use_is_refused_and_nothing_of_another_run_stays() {
+    let folder = folder("in-use", &[("p.adm", PENDULUM)]);
+    let short = ["run", "p.adm", "--end", "0.1", "-o", "here"];
+    let tables = [&short[..], &["--format", "parquet,csv"]].concat();
+    assert_eq!(code(&stiction(&folder, &tables)), 0);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args([
+            "run", "p.adm", "--end", "1e5", "--dtout", "0.1", "-o", "here",
+        ])
+        .args(["--force", "--progress", "json"])
+        .current_dir(&folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut progress = std::io::BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    std::io::BufRead::read_line(&mut progress, &mut line).unwrap();
+    let output = stiction(&folder, &[&short[..], &["--force"]].concat());
+    // Killed, so that it cannot tidy up; the lock goes with it.
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(code(&output), 2);
+    let said = errors(&output);
+    assert!(said.contains("here: another run is writing"), "{said}");
+    let here = folder.join("here");
+    for other in ["run.json", "friction.parquet", "states.csv", "tables.json"] {
+        assert!(
+            !here.join(other).exists(),
+            "{other} is not of the run that was killed"
+        );
+    }
+    let output = stiction(&folder, &[&tables[..], &["--force"]].concat());
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    assert!(here.join("friction.csv").is_file() && !here.join("p.res").exists());
+}
+
+/// Files cannot grow beyond a limit, as on a disk that fills up while a run writes.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_no_table_that_looks_whole() {
+    let folder = folder("full-tables", &[("p.adm", PENDULUM)]);
+    for (format, blocks) in [("parquet", 64), ("csv", 1024)] {
+        // Blocks of 512 bytes (1024 with some shells); the tables take more than a megabyte.
+        let command = format!(
+            "ulimit -f {blocks}; trap '' XFSZ; exec '{}' run p.adm --end 20 --dtout 0.01 --format {format} \
+             -o {format}",
+            env!("CARGO_BIN_EXE_stiction")
+        );
+        let output = Command::new("sh")
+            .args(["-c", &command])
+            .current_dir(&folder)
+            .output()
+            .unwrap();
+        assert_eq!(code(&output), 2, "{format}: {}", errors(&output));
+        let said = errors(&output);
+        assert!(
+            said.contains("cannot write") && said.contains(format),
+            "{format}: {said}"
+        );
+        let files = std::fs::read_dir(folder.join(format)).unwrap();
+        let names: Vec<String> = files
+            .map(|file| file.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        let whole = |name: &String| name == "run.json" || name == &format!("friction.{format}");
+        assert!(!names.iter().any(whole), "{names:?}");
+        assert!(
+            names.contains(&format!("friction.{format}.part")),
+            "{names:?}"
+        );
+    }
+}

@@ -38,7 +38,7 @@ use stiction::OutputError;
 use stiction::sink::{DataKind, Header, Layout, Sink};
 
 pub use crate::table::Values;
-use crate::table::{Heading, Kind, Table};
+use crate::table::{Heading, Kind, Table, part};
 pub use crate::whole::{Column, WholeTable, read, write};
 
 /// A format of tables.
@@ -111,7 +111,10 @@ impl Tables {
             let facts = open.facts.into_iter();
             let facts: Map<String, Value> = facts.map(|(k, fact)| (k, fact.into())).collect();
             let text = format!("{:#}\n", Value::Object(facts));
-            std::fs::write(&path, text).map_err(|error| wrong(&path, &error))?;
+            let part = part(&path);
+            let written = std::fs::write(&part, text);
+            let named = written.and_then(|()| std::fs::rename(&part, &path));
+            named.map_err(|error| wrong(&path, &error))?;
             files.push(path);
         }
         Ok(files)
@@ -196,6 +199,31 @@ impl Sink for Tables {
         }
         Ok(())
     }
+}
+
+/// Removes what another run has left in a folder: its tables, and the files of these names. Beside the
+/// files of a new run they would be taken for parts of it.
+///
+/// # Errors
+/// Files that cannot be removed.
+pub fn clear(folder: &Path, others: &[&str]) -> Result<(), OutputError> {
+    let tables = [
+        "friction.parquet",
+        "friction.csv",
+        "states.parquet",
+        "states.csv",
+        "tables.json",
+    ];
+    for name in tables.iter().chain(others) {
+        let path = folder.join(name);
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(wrong(&path, &error));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// A file that cannot be written.

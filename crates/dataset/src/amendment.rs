@@ -86,6 +86,12 @@ const REPLACED: &[(&str, &[&str])] = &[
     ("LE", &["EQ", "GE"]),
 ];
 
+/// Whether a new argument takes the place of another one.
+pub(crate) fn displaces(new: &str, old: &str) -> bool {
+    let mut rules = REPLACED.iter();
+    rules.any(|(keyword, others)| *keyword == new && others.contains(&old))
+}
+
 /// Prints the statement as it is now.
 const LIST: &str = "LIST";
 
@@ -136,7 +142,7 @@ fn span_of(items: &[Item]) -> Option<Span> {
 }
 
 /// An argument on one line; an expression with the mark of its end.
-fn text(source: &Source, items: &[Item], keyword: &str, keywords: &[Keyword]) -> String {
+pub(crate) fn text(source: &Source, items: &[Item], keyword: &str, keywords: &[Keyword]) -> String {
     let is_expression = keywords
         .iter()
         .any(|rule| rule.name.full == keyword && matches!(rule.kind, Kind::Expression));
@@ -191,8 +197,8 @@ impl Dataset {
         }
         let given = |keyword: &str| amendment.arguments.iter().any(|a| a.keyword == keyword);
         let replaced = |keyword: &str| {
-            let others = REPLACED.iter().filter(|(new, _)| given(new));
-            given(keyword) || others.into_iter().any(|(_, old)| old.contains(&keyword))
+            let mut news = amendment.arguments.iter();
+            given(keyword) || news.any(|new| displaces(new.keyword, keyword))
         };
         let mut text = format!("{name}/{id}");
         let kept = arguments_of(&before, keywords);

@@ -28,6 +28,7 @@ mod checks;
 mod commands;
 mod diagnostic;
 mod document;
+mod edit;
 mod expression;
 mod format;
 mod grammar;
@@ -46,6 +47,7 @@ mod syntax;
 pub use change::parse_change;
 pub use commands::read_commands;
 pub use diagnostic::{Code, Diagnostic, Location, Place, Replacement, Severity};
+pub use edit::edit;
 pub use expression::{
     ArgumentKind, BinaryOperator, DEEPEST, ElementKind, Expr, Expression, Function,
 };

@@ -4,16 +4,10 @@ use friction::{Effect, LuGre, Original, Regime};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::table::numbers;
+use crate::table::{numbers, values};
 
 /// The least level of bristles, force: below it they would not be defined.
 const LEAST: f64 = 1e-12;
-
-/// The numbers of an array.
-fn values(bytes: &[u8]) -> impl Iterator<Item = f64> {
-    let cells = bytes.as_chunks::<8>().0.iter();
-    cells.map(|cell| f64::from_ne_bytes(*cell))
-}
 
 /// The coefficient of ORIGINAL, its regime (0 stuck, 1 transition, 2 sliding) and the creep to go on
 /// with, by velocity and creep.

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use serde_json::Value;
-use stiction::{ArgumentError, Disk, InputError, Levels, Message};
+use stiction::{ArgumentError, Disk, InputError, Levels, Message, OutputError};
 
 use crate::description;
 use crate::recording::{Recording, Texts};
@@ -59,6 +60,10 @@ pub(crate) struct Project {
 
 pub(crate) fn input_failure(error: &InputError) -> PyErr {
     InputFailure::new_err((error.to_string(), messages(&error.messages)))
+}
+
+pub(crate) fn output_failure(error: OutputError) -> PyErr {
+    OutputFailure::new_err((error.path, error.cause))
 }
 
 /// Messages as JSON, each with its text for people.
@@ -121,6 +126,13 @@ impl Project {
     /// A checksum of the model as given and the changes made to it.
     fn checksum(&self) -> String {
         self.project.model_checksum()
+    }
+
+    /// The file of the dataset with the changes written into it.
+    fn dataset_file<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let file = self.project.to_dataset_file();
+        let file = file.map_err(|error| input_failure(&error))?;
+        Ok(PyBytes::new(py, &file))
     }
 
     /// What the model holds, as JSON.

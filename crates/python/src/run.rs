@@ -7,9 +7,9 @@ use columnar::{Format, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use stiction::sink::Sink;
-use stiction::{Message, OutputError, Progress, RunOptions, RunReport, Session, Watch};
+use stiction::{Claim, Message, Progress, RunOptions, RunReport, Session, Watch};
 
-use crate::project::{OutputFailure, Project, input_failure, messages};
+use crate::project::{Project, input_failure, messages, output_failure};
 use crate::table::Table;
 
 /// Wall time between two looks at the interpreter: short for people, long for a run.
@@ -130,15 +130,16 @@ pub(crate) fn run<'py>(
         let scratch = tempfile::tempdir()?;
         let into = folder.as_deref().unwrap_or(scratch.path());
         std::fs::create_dir_all(into)?;
+        let _claim = Claim::of(into).map_err(output_failure)?;
+        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
+        columnar::clear(into, &["run.json", &res, &req]).map_err(output_failure)?;
         let wanted = |format: &str| formats.iter().any(|wanted| wanted == format);
         let settings = RunOptions {
             error,
             text_results: folder.is_some() && wanted("res"),
             ..RunOptions::default()
         };
-        let each = [("parquet", Format::Parquet), ("csv", Format::Csv)];
-        let of_tables = each.into_iter().filter(|(name, _)| wanted(name));
-        let mut tables = Tables::new(into, of_tables.map(|(_, format)| format).collect());
+        let mut tables = Tables::new(into, of_tables(&formats));
         let mut sinks: Vec<&mut dyn Sink> = vec![&mut table];
         if folder.is_some() && !tables.is_empty() {
             sinks.push(&mut tables);
@@ -157,6 +158,12 @@ pub(crate) fn run<'py>(
     ran?.with(py, &table, monitor.stopped)
 }
 
-pub(crate) fn output_failure(error: OutputError) -> PyErr {
-    OutputFailure::new_err((error.path, error.cause))
+/// Those of the formats that are formats of tables.
+pub(crate) fn of_tables(formats: &[String]) -> Vec<Format> {
+    let each = [("parquet", Format::Parquet), ("csv", Format::Csv)];
+    let wanted = each.into_iter();
+    wanted
+        .filter(|(name, _)| formats.iter().any(|wanted| wanted == name))
+        .map(|(_, format)| format)
+        .collect()
 }

@@ -14,8 +14,8 @@ use studies::{
     Settings, StudyError, StudyFile, Until, Value,
 };
 
-use crate::project::{Project, argument_failure, input_failure, messages};
-use crate::run::{Ran, Told, output_failure};
+use crate::project::{Project, argument_failure, input_failure, messages, output_failure};
+use crate::run::{Ran, Told};
 use crate::table::{Table, numbers};
 
 pyo3::create_exception!(

@@ -92,3 +92,9 @@ pub(crate) fn numbers<'py>(py: Python<'py>, values: &[f64]) -> PyResult<Bound<'p
         Ok(())
     })
 }
+
+/// The numbers of an array of numpy.
+pub(crate) fn values(bytes: &[u8]) -> impl Iterator<Item = f64> {
+    let cells = bytes.as_chunks::<8>().0.iter();
+    cells.map(|cell| f64::from_ne_bytes(*cell))
+}

@@ -3,6 +3,9 @@
 from collections.abc import Callable
 from typing import Any
 
+#: Version of the solver.
+__version__: str
+
 class InputFailure(Exception):
     """What is wrong with an input: text for people, and its messages as JSON."""
 
@@ -29,6 +32,7 @@ class Project:
     def argument(self, name: str) -> tuple[str, str | None]: ...
     def texts(self) -> dict[str, bytes]: ...
     def checksum(self) -> str: ...
+    def dataset_file(self) -> bytes: ...
     def description(self) -> str: ...
     def diagnostics(self) -> str: ...
     def statement(self, statement: str, id: int) -> str | None: ...
@@ -44,6 +48,14 @@ def run(
     facts: list[tuple[str, str]],
     told: Callable[[float, float], object] | None,
 ) -> tuple[str, bytes, bytes, bytes, str, str, str, BaseException | None]: ...
+def save(
+    folder: str,
+    formats: list[str],
+    table: tuple[str, bytes, bytes, bytes],
+    title: str,
+    time_unit: str,
+    facts: list[tuple[str, str]],
+) -> None: ...
 Ran = tuple[str, bytes, bytes, bytes, str, str, str, BaseException | None]
 Parameter = tuple[
     str,

@@ -10,19 +10,19 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
+from pathlib import Path
 from typing import Any, Union
 
 from . import _native
 from .diagnostics import Diagnostics, ParameterError
+from .files import refuse_used, write_whole
 from .names import Named, typed_errors, unknown
-from .result import Result
+from .result import Result, check_formats
 from .units import Quantity, converted
 
 Value = Union[float, Quantity, str, Sequence[Union[float, str]]]
 """What an argument of a statement can be given: a number (model units), a number with its unit, a
 word or expression, or several of them."""
-
-_FORMATS = ("res", "parquet", "csv")
 
 
 @dataclass(frozen=True)
@@ -219,6 +219,18 @@ class Model:
             project = self._project.changed(list(statements))
         return Model(project, self._path, self._changes + statements)
 
+    def write(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the dataset (`.adm`) with the changes of `replace`: arguments are replaced where they
+        stand, and comments, layout and all else are as they were. Commands are not part of it, and
+        files that it names are looked for beside it.
+
+        Raises `OutputError` where the file is there already, unless `overwrite`, and where it
+        cannot be written; it is written as a whole or not at all.
+        """
+        with typed_errors():
+            content = self._project.dataset_file()
+        write_whole(path, content, overwrite)
+
     def _change(self, place: str, value: Value) -> str:
         with typed_errors():
             change, unit = self._project.argument(place)
@@ -234,6 +246,7 @@ class Model:
         integrator: str | None = None,
         output: str | os.PathLike[str] | None = None,
         formats: Sequence[str] = ("res",),
+        overwrite: bool = False,
         progress: bool | Callable[[float, float], object] = False,
     ) -> Result:
         """Simulates the model: the commands of its command file, or the dynamics of a dataset alone
@@ -242,7 +255,8 @@ class Model:
         `error` is the error tolerance; `integrator` the rest of an INTEGRATOR statement, such as
         ``"HHT, ERROR=1e-6"``. With `output` results are written into that folder while it runs, in
         the `formats` "res" (`.res` and `.req`), "parquet" and "csv" (tables `friction` and
-        `states`), and the message file. `progress` shows how far it is, or is called with time and end.
+        `states`), and the message file; a folder that has something in it is refused unless
+        `overwrite`. `progress` shows how far it is, or is called with time and end.
 
         Other threads of Python go on meanwhile. Ctrl-C stops the run and raises
         `Interrupted`, a KeyboardInterrupt that has the results so far. A run that fails
@@ -256,9 +270,7 @@ class Model:
             raise ParameterError(f"steps must be a positive number of outputs, it is {steps}")
         if steps is not None and dtout is not None:
             raise ParameterError("steps and dtout say the same; give one of them")
-        for format in formats:
-            if format not in _FORMATS:
-                raise ParameterError(str(unknown("format", format, _FORMATS)))
+        check_formats(formats, ("res", "parquet", "csv"))
         alone = self._about["is_dataset_alone"]
         if alone and end is None:
             raise ParameterError("a dataset alone has no commands; give the end of the simulation")
@@ -280,6 +292,8 @@ class Model:
                 project = project.changed([f"INTEGRATOR/{_line('integrator', integrator)}"])
             told = progress if callable(progress) else _show if progress else None
             folder = None if output is None else os.fspath(output)
+            if folder is not None and not overwrite:
+                refuse_used(Path(folder))
             ran = _native.run(
                 project,
                 folder,

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from .diagnostics import Diagnostics
-from .names import Named, unknown
+from . import _native
+from .diagnostics import Diagnostics, ParameterError
+from .files import whole_folder
+from .names import Named, typed_errors, unknown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -87,7 +90,9 @@ class Result:
         entities, times, kinds, columns, report, messages, log, stopped = ran
         about = {
             "title": model.title,
+            "prefix": model._about["prefix"],
             "units": model.units,
+            "version": _native.__version__,
             "model": checksum or model.checksum,
             "frictions": {friction.id: friction.joint for friction in model.frictions.values()},
             "joints": {f.id: model.joints[f.joint].kind for f in model.frictions.values()},
@@ -244,6 +249,34 @@ class Result:
         entity = next(entity for entity in self._entities if entity.kind == "Stiction_Energy")
         return {name.lower(): self._row(column) for name, column in entity.columns.items()}
 
+    def save(
+        self, folder: str | os.PathLike[str], formats: Sequence[str] = ("parquet",)
+    ) -> None:
+        """Writes the tables `friction` and `states` in the `formats` "parquet" and "csv", and the message
+        file, as a run with `output` does. The folder, of which there may be an empty one, gets its
+        name when it is whole.
+
+        Raises `OutputError` where the folder has something in it or cannot be written.
+        """
+        check_formats(formats, ("parquet", "csv"))
+        about = self._about
+        facts = {
+            "version": about["version"],
+            "outcome": self.outcome,
+            "model": self.model_checksum,
+            "options": json.dumps(about["options"]),
+        }
+        with whole_folder(folder) as part, typed_errors():
+            _native.save(
+                os.fspath(part),
+                list(formats),
+                self._raw[:4],
+                about["title"],
+                about["units"]["time"],
+                list(facts.items()),
+            )
+            (part / f"{about['prefix']}.msg").write_text(self.log, encoding="utf-8", newline="")
+
     @cached_property
     def plot(self) -> Plots:
         """Pictures: ``result.plot.friction("slide")``; they need matplotlib."""
@@ -292,6 +325,13 @@ class Result:
             f"outputs, {stats['steps']} steps, {stats['elapsed_seconds']:.2f} s</p>"
             f"<table><tr>{''.join(f'<th>{head}</th>' for head in heads)}</tr>{rows}</table>"
         )
+
+
+def check_formats(formats: Sequence[str], known: Sequence[str]) -> None:
+    """Raises `ParameterError` for a format of results that is none of those known."""
+    for format in formats:
+        if format not in known:
+            raise ParameterError(str(unknown("format", format, known)))
 
 
 class Interrupted(KeyboardInterrupt):

@@ -95,5 +95,5 @@ def test_unknown_formats_are_refused(tmp_path: Path) -> None:
 def test_tables_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "friction.parquet.part").mkdir()
     with pytest.raises(stiction.OutputError, match="friction.parquet"):
-        stiction.loads(BLOCK).run(end=0.1, output=tmp_path, formats=["parquet"])
+        stiction.loads(BLOCK).run(end=0.1, output=tmp_path, formats=["parquet"], overwrite=True)
     assert not (tmp_path / "friction.parquet").exists()

@@ -27,6 +27,15 @@ pub enum DataKind {
 
 impl DataKind {
     const COUNT: usize = 6;
+    /// All of them in the order of their numbers, as in `DataKind::Dynamic as usize`.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::ModelInput,
+        Self::InitialConditions,
+        Self::Static,
+        Self::QuasiStatic,
+        Self::Dynamic,
+        Self::Kinematic,
+    ];
 
     /// Its name, in a `.res` before the number of the block: `initialConditions`, `dynamic`, ...
     #[must_use]

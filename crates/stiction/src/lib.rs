@@ -15,6 +15,7 @@
 //! | a run from outside | `session.rs` |
 //! | what the commands will ask for | `survey.rs` |
 //! | commands carried out | `runner.rs`, equilibria in `statics.rs`, settings and output times in `settings.rs` |
+//! | one run at a time in a folder | `claim.rs` |
 //! | SAVE and RELOAD | `saving.rs`, their file `saved_system.rs` |
 //! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs`, given to others by `sink.rs` |
 //! | events | `sensors.rs` |
@@ -51,6 +52,7 @@ mod balance;
 mod channels;
 mod check;
 mod checkpoint;
+mod claim;
 mod defaults;
 mod eigensolution;
 pub mod explain;
@@ -88,6 +90,7 @@ pub use argument::{Argument, ArgumentError};
 pub use balance::{EnergyBalance, EnergyTerm};
 pub use check::{CheckReport, check};
 pub use checkpoint::{CheckpointError, ResumeError};
+pub use claim::Claim;
 pub use dataset::{Code, Diagnostic, Location, Place, Replacement, Severity, Span};
 pub use defaults::{FrictionDefaults, defaults_in_use};
 pub use eigensolution::{ModeLine, ModeReport};

@@ -135,6 +135,25 @@ impl Project {
         hexadecimal(&hash.finalize())
     }
 
+    /// The file of the dataset with the changes made before the run: arguments are replaced where they
+    /// stand, and all else, comments and layout too, is as it was. Commands are not part of it.
+    ///
+    /// ```no_run
+    /// let mut project = stiction::Project::load("pendulum.adm".as_ref())?;
+    /// project.set("FRICTION/1, MU_STATIC=0.2")?;
+    /// std::fs::write("rough.adm", project.to_dataset_file()?).expect("it can be written");
+    /// # Ok::<(), stiction::InputError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Changes that a dataset cannot say, such as DEACTIVATE.
+    pub fn to_dataset_file(&self) -> Result<Vec<u8>, InputError> {
+        let source = self.model_source();
+        let edited = dataset::edit(source, &self.given_changes);
+        let text = edited.map_err(|diagnostics| self.refused(diagnostics))?;
+        Ok(source.encode(&text))
+    }
+
     pub(crate) fn steps(&self) -> &[SourcedCommand] {
         &self.commands
     }

@@ -5,6 +5,7 @@
 mod cases;
 mod changes;
 mod corpus;
+mod edit;
 mod forces;
 mod format;
 mod hostile;

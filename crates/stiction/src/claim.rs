@@ -1,0 +1,58 @@
+//! One run at a time writes into a folder.
+
+use std::path::Path;
+
+use crate::session::OutputError;
+
+/// Keeps a folder for one run until it is dropped or its process ends, however it ends.
+///
+/// It is a lock of the operating system on the folder itself, which leaves nothing behind. Where the file
+/// system has no locks, and elsewhere than on Unix, nothing is kept.
+#[derive(Debug)]
+pub struct Claim {
+    #[cfg(unix)]
+    _folder: std::fs::File,
+}
+
+impl Claim {
+    /// Claims a folder that exists.
+    ///
+    /// # Errors
+    /// Another run has claimed it; or it cannot be opened.
+    ///
+    /// ```
+    /// use stiction::Claim;
+    /// let folder = std::env::temp_dir().join(format!("claim-{}", std::process::id()));
+    /// std::fs::create_dir_all(&folder).unwrap();
+    /// let first = Claim::of(&folder)?;
+    /// # #[cfg(unix)]
+    /// assert!(Claim::of(&folder).unwrap_err().cause.contains("another run"));
+    /// drop(first);
+    /// assert!(Claim::of(&folder).is_ok());
+    /// # std::fs::remove_dir(&folder).unwrap();
+    /// # Ok::<(), stiction::OutputError>(())
+    /// ```
+    #[cfg(unix)]
+    pub fn of(folder: &Path) -> Result<Self, OutputError> {
+        let shown = folder.display().to_string();
+        let opened = std::fs::File::open(folder);
+        let opened = opened.map_err(|error| OutputError::new(shown.clone(), &error))?;
+        match opened.try_lock() {
+            Err(std::fs::TryLockError::WouldBlock) => Err(OutputError::new(
+                shown,
+                &"another run is writing results into this folder; wait for it, or choose another one",
+            )),
+            // Without locks there is nothing to ask.
+            Ok(()) | Err(std::fs::TryLockError::Error(_)) => Ok(Self { _folder: opened }),
+        }
+    }
+
+    /// Claims a folder that exists.
+    ///
+    /// # Errors
+    /// None where folders cannot be locked.
+    #[cfg(not(unix))]
+    pub fn of(_: &Path) -> Result<Self, OutputError> {
+        Ok(Self {})
+    }
+}
