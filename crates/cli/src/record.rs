@@ -10,7 +10,6 @@ use stiction::{Message, Outcome, Project, RunReport, Severity};
 
 use crate::arguments::RunArguments;
 use crate::exit::Exit;
-use crate::replace::replace;
 
 /// What a run warns of, and what is denied of that; the error that ended it is not among them.
 pub(crate) fn beside_the_outcome(report: &RunReport) -> impl Iterator<Item = &Message> {
@@ -121,5 +120,12 @@ pub(crate) fn write(
     for (name, part) in more {
         value[name] = part;
     }
-    replace(&folder.join("run.json"), format!("{value:#}\n").as_bytes())
+    // Half a record would be none, but the folder is not to look as if there were one.
+    let [part, whole] = ["run.json.part", "run.json"].map(|name| folder.join(name));
+    let written = std::fs::write(&part, format!("{value:#}\n"));
+    let named = written.and_then(|()| std::fs::rename(&part, &whole));
+    if named.is_err() {
+        let _ = std::fs::remove_file(&part);
+    }
+    named
 }

@@ -53,12 +53,9 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     let session = Session::new(&project).map_err(input)?;
     let folder = folder(arguments, &project)?;
-    let _claim = Claim::of(&folder).map_err(|error| usage(&error.to_string()))?;
-    if !arguments.resume {
-        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
-        columnar::clear(&folder, &["run.json", &res, &req])
-            .map_err(|error| usage(&error.to_string()))?;
-    }
+    // What is resumed may not be there, which resuming tells.
+    let claim = folder.is_dir().then(|| Claim::of(&folder)).transpose();
+    let _claim = claim.map_err(|error| usage(&error.to_string()))?;
     let inputs = record::inputs(&project);
     let mut monitor = Monitor::new(arguments.progress);
     let options = RunOptions {
@@ -68,6 +65,14 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     };
     let formats = arguments.formats.iter();
     let formats: Vec<_> = formats.filter_map(|format| format.of_tables()).collect();
+    if !arguments.resume {
+        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
+        let of_others: &[&str] = match options.text_results {
+            true => &["run.json"],
+            false => &["run.json", &res, &req],
+        };
+        columnar::clear(&folder, of_others).map_err(|error| usage(&error.to_string()))?;
+    }
     let mut tables = Tables::new(&folder, formats);
     let ran = if arguments.resume {
         session.resume(&folder, options, &mut monitor)

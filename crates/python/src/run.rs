@@ -131,14 +131,18 @@ pub(crate) fn run<'py>(
         let into = folder.as_deref().unwrap_or(scratch.path());
         std::fs::create_dir_all(into)?;
         let _claim = Claim::of(into).map_err(output_failure)?;
-        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
-        columnar::clear(into, &["run.json", &res, &req]).map_err(output_failure)?;
         let wanted = |format: &str| formats.iter().any(|wanted| wanted == format);
         let settings = RunOptions {
             error,
             text_results: folder.is_some() && wanted("res"),
             ..RunOptions::default()
         };
+        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
+        let of_others: &[&str] = match settings.text_results {
+            true => &["run.json"],
+            false => &["run.json", &res, &req],
+        };
+        columnar::clear(into, of_others).map_err(output_failure)?;
         let mut tables = Tables::new(into, of_tables(&formats));
         let mut sinks: Vec<&mut dyn Sink> = vec![&mut table];
         if folder.is_some() && !tables.is_empty() {
