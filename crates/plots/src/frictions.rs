@@ -133,8 +133,14 @@ pub(crate) fn shares<B: DrawingBackend>(
     title: &str,
     series: &FrictionSeries,
 ) -> Drawn<B> {
+    let largest = |cause: usize| {
+        let values = series.causes[cause].iter();
+        values.fold(0.0_f64, |most, value| most.max(value.abs()))
+    };
+    // Rounding is no cause.
+    let least = 1e-9 * (0..CAUSES.len()).map(largest).fold(0.0, f64::max);
     let present: Vec<usize> = (0..CAUSES.len())
-        .filter(|&cause| series.causes[cause].iter().any(|value| *value != 0.0))
+        .filter(|&cause| largest(cause) > least)
         .collect();
     let count = series.time.len();
     let total: Vec<f64> = (0..count)

@@ -106,7 +106,9 @@ class Plots:
         friction = self._result.friction[name]
         axes = _axes(ax)
         amounts = {cause: np.abs(friction[f"by_{cause}"]) for cause in _CAUSES}
-        present = {cause: amount for cause, amount in amounts.items() if amount.any()}
+        # Rounding is no cause.
+        least = 1e-9 * max(amount.max() for amount in amounts.values())
+        present = {cause: amount for cause, amount in amounts.items() if amount.max() > least}
         axes.stackplot(
             friction.time,
             list(present.values()),
