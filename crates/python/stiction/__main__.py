@@ -37,6 +37,8 @@ def main(words: Sequence[str]) -> int:
     started = time.perf_counter()
     try:
         plan = Plan.of_file(arguments.study)
+        if plan.model.diagnostics:
+            print(plan.model.diagnostics, file=sys.stderr)
         with connected(arguments.cluster) as client:
             told = progress_of(arguments.progress, plan.native.cases())
             record = record_of(plan, folder, arguments.resume, None, client, told)
