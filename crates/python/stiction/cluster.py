@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .study import Plan
 
 #: Wall time that a batch should take, seconds: the scheduler needs about a millisecond for each.
-BATCH_SECONDS = 0.5
+BATCH_SECONDS = 1.0
 
 #: Batches that a thread of a worker has, one to work on and the others to go on with at once.
 AHEAD = 2
