@@ -3,7 +3,7 @@
 //! The environment variable `STICTION_FUZZ_MUTATIONS` sets the number of damaged texts.
 
 use dataset::{
-    Diagnostic, Language, Source, SyntaxTree, format, from_json, parse_change, read_commands,
+    Diagnostic, Language, Source, SyntaxTree, edit, format, from_json, parse_change, read_commands,
     read_dataset, to_json,
 };
 
@@ -30,6 +30,10 @@ fn read_every_way(bytes: &[u8]) -> usize {
     for language in [Language::Dataset, Language::Commands] {
         count += lay_out(&source, language);
     }
+    // Dear, so of some texts alone.
+    if bytes.len().is_multiple_of(16) {
+        write_changes(&source);
+    }
     match to_json(&source) {
         Ok(json) => {
             let json = Source::from_text("JSON", json);
@@ -43,6 +47,21 @@ fn read_every_way(bytes: &[u8]) -> usize {
         count += check(&source, &errors);
     }
     count
+}
+
+/// Changes are written into a damaged text, or it is said why not.
+fn write_changes(source: &Source) {
+    for change in [
+        "FRICTION/1, MU_STATIC=0.25, INPUTS=PRELOAD",
+        "SFORCE/1, FUNCTION=TIME",
+        "MOTION/1, VELOCITY",
+        "PART/2, MASS=3",
+        "INTEGRATOR/ERROR=1E-5",
+    ] {
+        if let Err(errors) = edit(source, &[change.to_owned()]) {
+            assert!(!errors.is_empty());
+        }
+    }
 }
 
 /// What can be laid out is stable; that it says the same is checked by [`format`] itself, which
