@@ -1,8 +1,11 @@
 //! The error of a step against the tolerance, and where it is largest.
 
-use super::{Dynamics, Index};
+use super::{Dynamics, Formulation, Index};
 use crate::model::Label;
 use crate::state::{POSITIONS, VELOCITIES};
+
+/// Part of the longest step below which steps of SI2 that are solved as I3 have no test of velocities.
+const SHORTEST_TESTED: f64 = 1e-3;
 
 /// The largest of some sizes and its place; what is not a number stays.
 struct Largest {
@@ -21,7 +24,7 @@ impl Largest {
 impl Dynamics {
     /// The largest part of a difference of states, in units of the error that a step may make, and its
     /// place among the values.
-    pub(crate) fn largest_error(&self, difference: &[f64]) -> (f64, usize) {
+    pub(crate) fn largest_error(&mut self, difference: &[f64]) -> (f64, usize) {
         let places = POSITIONS * self.system.model.bodies.len();
         let (length, rate) = (self.scales.length, self.scales.rate);
         let mut largest = Largest {
@@ -38,8 +41,19 @@ impl Dynamics {
             let velocities = &difference[places..self.state.motions()];
             for (k, d) in velocities.iter().enumerate() {
                 let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
-                let scale = unit * (rate + self.left_of_velocities);
+                let scale = unit * rate;
                 largest.take(d.abs() / (scale * tolerance), places + k);
+            }
+        } else if self.tests_free_velocities() {
+            let moving = places + self.system.velocity_count();
+            self.free_velocities(&difference[places..moving]);
+            let scale = rate + self.left_of_velocities;
+            for (k, d) in self.right[..self.system.velocity_count()]
+                .iter()
+                .enumerate()
+            {
+                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
+                largest.take(d.abs() / (unit * scale * self.error), places + k);
             }
         }
         let states = self.state.state_range();
@@ -58,6 +72,34 @@ impl Dynamics {
             largest.take(self.switching.norm(&difference[k..=k]), k);
         }
         (largest.size, largest.place)
+    }
+
+    /// Whether the error test of the present step looks at the part of velocities that constraints leave
+    /// free. With bristles it does not: reactions of index 3 are rough, and what friction makes of them is
+    /// no smaller in a shorter step. Short steps of SI2 that are solved as I3 pass what has no solution
+    /// with the velocities that it asks for.
+    pub(super) fn tests_free_velocities(&self) -> bool {
+        matches!(self.formulation, Formulation::I3 | Formulation::Si2)
+            && self.step_size > SHORTEST_TESTED * self.steps[1]
+            && self.bristle_errors.is_empty()
+            && self.factored.is_some()
+    }
+
+    /// The part of a difference of velocities that constraints leave free, by the Newton matrix.
+    ///
+    /// Velocities of index 3 are off along the constraint forces by what the formula makes of errors of
+    /// positions, in short steps as in long ones, so that no test of them can be met. Elsewhere they have
+    /// the error of any other method, which a bend of the forces within the step (friction that comes to
+    /// stick) makes large while positions hardly show it. The Newton matrix tells one from the other
+    /// (L. R. Petzold, *Differential/algebraic equations are not ODE's*, SIAM Journal on Scientific and
+    /// Statistical Computing 3, 1982: errors are filtered by the iteration matrix).
+    fn free_velocities(&mut self, difference: &[f64]) {
+        self.momentum.fill(0.0);
+        self.momentum[..difference.len()].copy_from_slice(difference);
+        self.right.fill(0.0);
+        let rates = &mut self.right[..self.momentum.len()];
+        self.system.mass_times(&self.momentum, rates);
+        self.factors.solve(&mut self.right);
     }
 
     /// What a place among the values means, and the element that it belongs to.

@@ -111,7 +111,9 @@ pub(crate) struct Dynamics {
     /// Error that a step may make, relative to the scales.
     pub(crate) error: f64,
     pub(crate) newton_iterations: usize,
-    /// Shortest and longest step.
+    /// Length of the present step,
+    step_size: f64,
+    /// of the shortest and the longest one.
     pub(crate) steps: [f64; 2],
     pub(crate) scales: Scales,
     pub(crate) work: Work,
@@ -143,6 +145,10 @@ pub(crate) struct Dynamics {
     /// the rates there, and those times the present `M`.
     past_rates: Vec<f64>,
     past_inertia: Vec<f64>,
+    /// Rates of bristles at the last accepted step by their own equations, where HHT reads them, and
+    /// what its formula takes for their past.
+    past_bristle_rates: Vec<f64>,
+    bristle_past: Vec<f64>,
     /// Rates of velocities and differential states that the step was solved with.
     rates: Vec<f64>,
     momentum: Vec<f64>,
@@ -170,6 +176,7 @@ impl Dynamics {
             index3_left: 0,
             error: 1e-6,
             newton_iterations: 4,
+            step_size: 0.0,
             steps: [0.0, f64::INFINITY],
             scales,
             work: Work::default(),
@@ -192,6 +199,8 @@ impl Dynamics {
             past_force: vec![0.0; n],
             past_rates: vec![0.0; n],
             past_inertia: vec![0.0; n],
+            past_bristle_rates: vec![0.0; system.bristle_count()],
+            bristle_past: vec![0.0; system.bristle_count()],
             rates: vec![0.0; n],
             momentum: vec![0.0; n],
             right: vec![0.0; size],
@@ -252,13 +261,30 @@ impl Dynamics {
         self.past_multipliers.start_without_slope(time, multipliers);
     }
 
-    /// Takes over the rates of velocities and states of the instant that a run begins at.
-    pub(crate) fn start_rates(&mut self, rates: &[f64]) {
+    /// Takes over the rates of velocities and states, and of bristles, of the instant that a run begins
+    /// at.
+    pub(crate) fn start_rates(&mut self, rates: &[f64], bristles: &[f64]) {
         if self.formulation.alpha() != 0.0 {
             // Forces and inertia are in balance.
             self.past_force.fill(0.0);
             self.past_rates.copy_from_slice(rates);
+            self.past_bristle_rates.copy_from_slice(bristles);
         }
+    }
+
+    /// Gives the bristles their formula, `z = past + γ z'`.
+    ///
+    /// HHT has the rate of the time `t + αh`, `(1 + α) z' − α z'₀`, as for all that it integrates: with
+    /// `z'` alone bristles are integrated to first order.
+    fn set_bristles(&mut self, step: &bdf::Step<'_>) {
+        let alpha = self.formulation.alpha();
+        let past = &step.history[self.state.bristle_range()];
+        let rates = past.iter().zip(&self.past_bristle_rates);
+        for (out, (past, rate)) in self.bristle_past.iter_mut().zip(rates) {
+            *out = past - alpha * step.gamma * rate;
+        }
+        self.system
+            .set_bristles(&self.bristle_past, (1.0 + alpha) * step.gamma);
     }
 
     /// What multiplies the inertia forces: `M u̇/(1 + α) = F − α/(1 + α) (F₀ + (M − M₀) u̇₀)` with HHT.
@@ -365,8 +391,7 @@ impl Dynamics {
     ) -> Result<(), Failure> {
         self.state.time = step.time;
         self.state.values.copy_from_slice(prediction);
-        let bristles = &step.history[self.state.bristle_range()];
-        self.system.set_bristles(bristles, step.gamma);
+        self.set_bristles(step);
         self.shift.fill(0.0);
         self.predict_impulses(step, usage);
         self.state.normalize();

@@ -2,7 +2,7 @@
 
 use numerics::bdf::{self, Family};
 
-use super::{Dynamics, Index, MatrixUse};
+use super::{Dynamics, Formulation, INDEX3_SHARE, Index, MatrixUse};
 use crate::instant::Failure;
 use crate::model::Level;
 use crate::system::{Rows, Weights};
@@ -95,6 +95,10 @@ impl Dynamics {
         // Near a singular position no iteration comes as close as index 3 wants it elsewhere.
         match self.formulation.index() {
             Index::One | Index::StabilisedTwo => norm / self.error,
+            Index::Three if self.tests_free_velocities() => {
+                let part = INDEX3_NEWTON_TOLERANCE / NEWTON_TOLERANCE;
+                (norm / self.tolerance()).max(part * motions / (self.scales.rate * self.error))
+            }
             Index::Three => norm / self.tolerance(),
         }
     }
@@ -102,11 +106,12 @@ impl Dynamics {
     /// What the iteration leaves of velocities that follow from positions, in units of the error of
     /// positions: an error test that looks closer asks for shorter steps, which leave more.
     pub(super) fn left_of_velocities(&self, step: &bdf::Step<'_>) -> f64 {
-        if self.formulation.tests_velocities() {
-            MARGIN * NEWMARK_NEWTON_TOLERANCE / step.size
-        } else {
-            0.0
-        }
+        let tolerance = match self.formulation {
+            Formulation::I3 => INDEX3_NEWTON_TOLERANCE * INDEX3_SHARE,
+            Formulation::Newmark { .. } => NEWMARK_NEWTON_TOLERANCE,
+            Formulation::Si2 | Formulation::Adams | Formulation::Hht { .. } => 0.0,
+        };
+        MARGIN * tolerance / step.size
     }
 
     /// What the iteration leaves of reactions that follow from positions, as a part of the inertia forces

@@ -20,6 +20,7 @@ impl bdf::System for Dynamics {
 
     fn solve(&mut self, step: &bdf::Step<'_>, y: &mut [f64]) -> Result<(), Failure> {
         self.switching.attempt(step.size, self.steps[1]);
+        self.step_size = step.size;
         self.left_of_velocities = self.left_of_velocities(step);
         let stale = self
             .factored
@@ -74,7 +75,7 @@ impl bdf::System for Dynamics {
         Ok(())
     }
 
-    fn norm(&self, difference: &[f64]) -> f64 {
+    fn norm(&mut self, difference: &[f64]) -> f64 {
         self.largest_error(difference).0
     }
 
@@ -119,9 +120,14 @@ impl bdf::System for Dynamics {
                 *force = inertia * now - lag * (*force + past) - now;
             }
             self.past_rates.copy_from_slice(&self.rates);
+            let solved = self.state.values[self.state.bristle_range()].iter();
+            let rates = self.past_bristle_rates.iter_mut();
+            for (rate, (deflection, past)) in rates.zip(solved.zip(&self.bristle_past)) {
+                *rate = (deflection - past) * inertia / step.gamma;
+            }
         }
         self.previous.clone_from(&self.system.history.frictions);
-        self.system.accept_frictions(&self.multipliers, step.size);
+        self.system.accept_frictions(&self.multipliers);
         self.system.remember_angles();
         self.scales.observe(self.state.velocities());
         raise(&mut self.state_scales, self.state.states());

@@ -7,9 +7,9 @@ use friction::{
 use nalgebra::Vector3;
 
 use super::response::{Joining, Response, respond};
-use super::{BristlePast, Element, LoadAt, Memory, Slopes, SurfaceVector, Values};
+use super::{Element, LoadAt, Past, Slopes, SurfaceVector, Values};
 use crate::equation::{Equation, Local, Pair};
-use crate::model::{Friction, FrictionJoint, Law};
+use crate::model::{Friction, FrictionJoint};
 use crate::state::MarkerFrame;
 use friction::Regime;
 
@@ -79,8 +79,7 @@ impl Joining<2> for Both<'_> {
 /// Friction along or about the one freedom of a joint.
 pub(super) fn one(
     friction: &Friction,
-    memory: &Memory,
-    past: &BristlePast,
+    past: &Past<'_>,
     equation: Equation,
     load: &LoadAt,
     i: &MarkerFrame,
@@ -91,24 +90,13 @@ pub(super) fn one(
         friction,
         load: load.load.value,
     };
-    evaluate(
-        friction,
-        memory,
-        past,
-        [equation],
-        load,
-        i,
-        j,
-        &joining,
-        slopes,
-    )
+    evaluate(friction, past, [equation], load, i, j, &joining, slopes)
 }
 
 /// Friction along and about the axis of a cylindrical joint.
 pub(super) fn cylindrical(
     friction: &Friction,
-    memory: &Memory,
-    past: &BristlePast,
+    past: &Past<'_>,
     equations: [Equation; 2],
     load: &LoadAt,
     i: &MarkerFrame,
@@ -119,15 +107,12 @@ pub(super) fn cylindrical(
         friction,
         load: load.load.value,
     };
-    evaluate(
-        friction, memory, past, equations, load, i, j, &joining, slopes,
-    )
+    evaluate(friction, past, equations, load, i, j, &joining, slopes)
 }
 
 fn evaluate<const N: usize>(
     friction: &Friction,
-    memory: &Memory,
-    past: &BristlePast,
+    past: &Past<'_>,
     equations: [Equation; N],
     load: &LoadAt,
     i: &MarkerFrame,
@@ -138,19 +123,16 @@ fn evaluate<const N: usize>(
     let arms = equations.map(|equation| equation.arm(friction.load.arm()));
     let pair = Pair::new(i, j);
     let u = pair.velocities();
-    let sticks = memory.stuck && matches!(friction.law, Law::Original(_));
-    let (mut velocity, mut creep) = ([0.0; N], [0.0; N]);
+    let (mut velocity, mut slip) = ([0.0; N], [0.0; N]);
     let mut rows = [Local::zeros(); N];
     for k in 0..N {
         let value = equations[k].evaluate(&pair, &[], &mut rows[k]);
         velocity[k] = arms[k] * rows[k].dot(&u);
-        if sticks {
-            creep[k] = memory.creep[k] + arms[k] * memory.change(equations[k], k, value);
-        }
+        slip[k] = arms[k] * past.memory.change(equations[k], k, value);
     }
-    let r = respond(
-        friction, memory, past, &velocity, &creep, &load.load, arms, joining,
-    );
+    let since = past.memory.creep_at(friction, past.time, &slip, &velocity);
+    let creep = since.map_or([0.0; N], |creep| creep.value);
+    let r = respond(friction, past, &velocity, &creep, &load.load, arms, joining);
     let mut element = Element {
         values: values(friction, equations, &velocity, &creep, &r, load, i, j),
         steady_coefficient: r.steady_coefficient,
@@ -163,10 +145,21 @@ fn evaluate<const N: usize>(
     let Resultant {
         force,
         by_load,
-        by_velocity,
+        mut by_velocity,
         by_creep,
         ..
     } = r.resultant;
+    let mut by_slip = [[0.0; N]; N];
+    if let Some(since) = since {
+        for (k, row) in by_creep.iter().enumerate() {
+            for l in 0..N {
+                by_slip[k][l] = (0..N).map(|m| row[m] * since.by_slip[m][l]).sum();
+                by_velocity[k][l] += (0..N)
+                    .map(|m| row[m] * since.by_velocity[m][l])
+                    .sum::<f64>();
+            }
+        }
+    }
     for k in 0..N {
         element.force += force[k] * rows[k];
         element.by_load += r.steady_by_load[k] * rows[k];
@@ -185,9 +178,7 @@ fn evaluate<const N: usize>(
         for l in 0..N {
             velocity_change += by_velocity[k][l] * arms[l] * rows[l];
             position_change += by_velocity[k][l] * velocity_by_position[l];
-            if sticks {
-                position_change += by_creep[k][l] * arms[l] * rows[l];
-            }
+            position_change += by_slip[k][l] * arms[l] * rows[l];
         }
         slopes.by_velocity += rows[k] * velocity_change.transpose();
         slopes.by_position +=

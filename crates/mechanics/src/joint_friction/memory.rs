@@ -1,9 +1,10 @@
 //! What friction remembers of the last accepted step, and the tally of what it did so far.
 
 use friction::Regime;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+use super::course::Course;
 use super::response::norm;
 use super::{freedoms, surface_velocity};
 use crate::equation::{Equation, Pair};
@@ -26,7 +27,8 @@ pub struct Memory {
     pub(super) anchor: Matrix3<f64>,
     /// Displacement along z of J at the first assembly, from which the overlap counts.
     pub(super) initial_displacement: f64,
-    /// Velocity of the sliding surfaces.
+    /// Time, and velocity of the sliding surfaces there.
+    time: f64,
     velocity: [f64; 3],
     /// Bristle deflection.
     deflection: [f64; 3],
@@ -63,7 +65,6 @@ pub struct Tally {
 /// The end of an accepted step.
 pub(crate) struct StepEnd {
     pub(crate) time: f64,
-    pub(crate) size: f64,
     /// Bristle deflection there.
     pub(crate) deflection: [f64; 3],
     /// Load at the surfaces, force.
@@ -81,11 +82,12 @@ impl Memory {
         let moves = friction.law.regime(norm(&velocity)) != Regime::Stuck;
         Self {
             creep: [0.0; 3],
-            stuck: true,
+            stuck: !moves,
             displacement,
             rotation: j.axes.transpose() * i.axes,
             anchor: j.axes.transpose() * i.axes,
             initial_displacement: Equation::Along(2).value(&Pair::new(i, j), &[]),
+            time,
             velocity,
             deflection: [0.0; 3],
             largest_load: 0.0,
@@ -139,9 +141,6 @@ impl Memory {
 
     /// Takes over an accepted step that ended at the frames of I and J.
     ///
-    /// Stick that begins within the step is anchored where the speed fell below the transition
-    /// velocity, found with the velocity taken linear over the step; the law gives creep a weight
-    /// there that vanishes with the third power of the distance to that velocity.
     pub(crate) fn accept(
         &mut self,
         friction: &Friction,
@@ -154,12 +153,8 @@ impl Memory {
         let stuck = friction.law.regime(norm(&velocity)) == Regime::Stuck;
         let creep = match &friction.law {
             Law::Original(law) => {
-                let creep = if self.stuck {
-                    std::array::from_fn(|k| self.creep[k] + slip[k])
-                } else {
-                    self.first_creep(law.transition_velocity, &velocity, end.size)
-                };
-                law.settle(&velocity, creep)
+                let creep = self.creep_at(friction, end.time, &slip, &velocity);
+                law.settle(&velocity, creep.map_or([0.0; 3], |c| c.value))
             }
             Law::LuGre(_) => [0.0; 3],
         };
@@ -172,7 +167,7 @@ impl Memory {
         self.deflection = end.deflection;
         self.largest_load = self.largest_load.max(end.load);
         self.rotation = j.axes.transpose() * i.axes;
-        self.velocity = velocity;
+        (self.time, self.velocity) = (end.time, velocity);
         for (k, equation) in freedoms(&friction.load).iter().enumerate() {
             let value = equation.value(&Pair::new(i, j), &[]);
             self.displacement[k] += self.change(*equation, k, value);
@@ -193,22 +188,22 @@ impl Memory {
             Law::Original(law) => law.transition_velocity,
             Law::LuGre(law) => law.stribeck_velocity,
         };
+        let size = end.time - self.time;
+        let course = self.course(end.time, slip, velocity);
+        let part = course.crossing(size * limit).unwrap_or(0.0);
+        let change = end.time - size * (1.0 - part);
         let tally = &mut self.tally;
-        let was_stuck = tally.sticking;
-        tally.sticking = stuck;
-        // The velocity is taken linear over the step, as for the creep.
-        let part = crossing(&self.velocity, velocity, limit, was_stuck).unwrap_or(0.0);
-        let change = end.time - end.size * (1.0 - part);
+        let was_stuck = std::mem::replace(&mut tally.sticking, stuck);
         match (was_stuck, stuck) {
-            (true, true) => tally.stuck_time += end.size,
+            (true, true) => tally.stuck_time += size,
             (false, false) => {}
             (true, false) => {
-                tally.stuck_time += end.size * part;
+                tally.stuck_time += size * part;
                 tally.stick_end = Some(change);
                 tally.longest_stick = tally.longest_stick.max(change - tally.stick_start);
             }
             (false, true) => {
-                tally.stuck_time += end.size * (1.0 - part);
+                tally.stuck_time += size * (1.0 - part);
                 tally.sticks += 1;
                 tally.stick_start = change;
             }
@@ -231,27 +226,58 @@ impl Memory {
         }
     }
 
-    /// Displacement since the speed fell below `limit` within a step.
-    fn first_creep(&self, limit: f64, velocity: &[f64; 3], size: f64) -> [f64; 3] {
-        let (before, after) = (Vector3::from(self.velocity), Vector3::from(*velocity));
-        let Some(s) = crossing(&self.velocity, velocity, limit, false) else {
-            return [0.0; 3];
+    /// How the surfaces move from the last accepted step to a time, by `slip` and to a velocity.
+    fn course<const N: usize>(&self, time: f64, slip: &[f64; N], velocity: &[f64; N]) -> Course<N> {
+        let size = time - self.time;
+        Course {
+            slip: *slip,
+            rates: [
+                std::array::from_fn(|k| size * self.velocity[k]),
+                velocity.map(|v| size * v),
+            ],
+        }
+    }
+
+    /// Creep of ORIGINAL friction at a time of the present step, from the slip and to the velocity of the
+    /// surfaces; none where they do not stick, or no creep matters.
+    ///
+    /// Stick that begins within the step is anchored where the speed falls below the transition
+    /// velocity (`course.rs`).
+    pub(super) fn creep_at<const N: usize>(
+        &self,
+        friction: &Friction,
+        time: f64,
+        slip: &[f64; N],
+        velocity: &[f64; N],
+    ) -> Option<Creep<N>> {
+        let Law::Original(law) = &friction.law else {
+            return None;
         };
-        (0.5 * size * (1.0 - s) * (before + s * (after - before) + after)).into()
+        if self.stuck {
+            return Some(Creep {
+                value: std::array::from_fn(|k| self.creep[k] + slip[k]),
+                by_slip: std::array::from_fn(|i| std::array::from_fn(|k| f64::from(i == k))),
+                by_velocity: [[0.0; N]; N],
+            });
+        }
+        if law.regime(norm(velocity)) != Regime::Stuck {
+            return None;
+        }
+        let size = time - self.time;
+        let course = self.course(time, slip, velocity);
+        let first = course.first_creep(size * law.transition_velocity)?;
+        Some(Creep {
+            value: first.creep,
+            by_slip: first.by_slip,
+            by_velocity: first.by_rate.map(|row| row.map(|d| size * d)),
+        })
     }
 }
 
-/// Part of a step after which the speed crosses `limit`, with the velocity linear over the step:
-/// upwards the first time, downwards the last. None where it does not.
-fn crossing(before: &[f64; 3], after: &[f64; 3], limit: f64, upwards: bool) -> Option<f64> {
-    let (before, after) = (Vector3::from(*before), Vector3::from(*after));
-    let change = after - before;
-    // |before + s change| = limit: outwards at the larger root, inwards at the smaller.
-    let (a, b) = (change.norm_squared(), before.dot(&change));
-    let root = b * b - a * (before.norm_squared() - limit * limit);
-    if !(a > 0.0 && root >= 0.0) {
-        return None;
-    }
-    let sign = if upwards { 1.0 } else { -1.0 };
-    Some(((-b + sign * root.sqrt()) / a).clamp(0.0, 1.0))
+/// Creep with its derivatives: row a component of the creep, column one of slip or velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Creep<const N: usize> {
+    pub(super) value: [f64; N],
+    pub(super) by_slip: [[f64; N]; N],
+    pub(super) by_velocity: [[f64; N]; N],
 }

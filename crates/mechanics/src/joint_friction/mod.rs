@@ -9,6 +9,7 @@
 //! | step | file |
 //! |---|---|
 //! | what the last accepted step left: creep, turns, tally | `memory.rs` |
+//! | how the surfaces move within a step, where stick begins | `course.rs` |
 //! | law, load, preload and limit to a force in surface variables | `response.rs` |
 //! | joints whose freedoms are displacements and angles | `freedoms.rs` |
 //! | spherical joints | `spherical.rs` |
@@ -16,11 +17,13 @@
 //!
 //! # Creep and bristles
 //! Creep is history: between accepted steps it is the creep at the last one plus the displacement
-//! since (spec of the law, "Creep: definition, integration, reset"). The bristle deflection of LuGre
+//! since, or since the speed has fallen below the transition velocity (spec of the law, "Creep:
+//! definition, integration, reset"). The bristle deflection of LuGre
 //! is a differential state. As its equation reads the velocity and load of its own joint alone and
 //! is linear in it, the integrator's formula `z = past + γ z'` is solved for it in closed form
 //! (`friction::LuGre::evaluate`), and no unknown of the Newton matrix is spent on it.
 
+mod course;
 mod freedoms;
 mod memory;
 mod response;
@@ -63,6 +66,17 @@ pub(crate) struct Contribution {
 pub(crate) struct BristlePast {
     pub(crate) past: [f64; 3],
     pub(crate) gamma: f64,
+}
+
+/// What friction at an instant has from before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Past<'a> {
+    /// The last accepted step.
+    pub(crate) memory: &'a Memory,
+    /// The integrator's formula for the bristles.
+    pub(crate) bristles: &'a BristlePast,
+    /// The time of the instant.
+    pub(crate) time: f64,
 }
 
 /// Friction over the local motions of the joint's markers.
@@ -151,23 +165,22 @@ fn freedoms(joint: &FrictionJoint) -> &'static [Equation] {
 /// they are wanted.
 pub(crate) fn evaluate(
     friction: &Friction,
-    memory: &Memory,
-    bristles: &BristlePast,
+    past: &Past<'_>,
     i: &MarkerFrame,
     j: &MarkerFrame,
     force: [f64; 3],
     moment: [f64; 3],
     slopes: Option<&mut Slopes>,
 ) -> Element {
-    let load = load_at(friction, memory, i, j, force, moment);
+    let load = load_at(friction, past.memory, i, j, force, moment);
     let equations = freedoms(&friction.load);
     match *equations {
-        [equation] => freedoms::one(friction, memory, bristles, equation, &load, i, j, slopes),
+        [equation] => freedoms::one(friction, past, equation, &load, i, j, slopes),
         [along, about] => {
             let equations = [along, about];
-            freedoms::cylindrical(friction, memory, bristles, equations, &load, i, j, slopes)
+            freedoms::cylindrical(friction, past, equations, &load, i, j, slopes)
         }
-        _ => spherical::evaluate(friction, memory, bristles, &load, i, j, slopes),
+        _ => spherical::evaluate(friction, past, &load, i, j, slopes),
     }
 }
 

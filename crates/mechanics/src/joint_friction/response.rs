@@ -2,7 +2,7 @@
 
 use friction::{Bristles, Coefficient, Load, Regime, Resultant};
 
-use super::{BristlePast, Memory};
+use super::Past;
 use crate::model::{Friction, Law};
 
 /// Smallest level of the bristles, as a part of the largest seen so far, and as a plain number.
@@ -35,8 +35,7 @@ pub(super) trait Joining<const N: usize> {
 /// forces at the surfaces into the components of the resultant.
 pub(super) fn respond<const N: usize>(
     friction: &Friction,
-    memory: &Memory,
-    past: &BristlePast,
+    past: &Past<'_>,
     velocity: &[f64; N],
     creep: &[f64; N],
     load: &Load,
@@ -73,10 +72,17 @@ pub(super) fn respond<const N: usize>(
         }
         Law::LuGre(law) => {
             let at_surface = friction.surface_load(load);
-            let level = law.mu_static * memory.largest_load.max(at_surface);
+            let level = law.mu_static * past.memory.largest_load.max(at_surface);
             let least = (LEAST_LEVEL[0] * level).max(LEAST_LEVEL[1]);
-            let z = core::array::from_fn(|k| past.past[k]);
-            let b = law.evaluate(velocity, &z, past.gamma, at_surface, &preload, least);
+            let z = core::array::from_fn(|k| past.bristles.past[k]);
+            let b = law.evaluate(
+                velocity,
+                &z,
+                past.bristles.gamma,
+                at_surface,
+                &preload,
+                least,
+            );
             let resultant = joining.bristles(&b);
             let speed = norm(velocity);
             let steady = |k: usize| {

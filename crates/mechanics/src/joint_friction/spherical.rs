@@ -6,9 +6,9 @@ use friction::{Bristles, Coefficient, Regime, Resultant, bristle_resultant, resu
 use nalgebra::{Matrix3, Vector3};
 
 use super::response::{Joining, respond};
-use super::{BristlePast, Element, LoadAt, Memory, Slopes, SurfaceVector, Values};
+use super::{Element, LoadAt, Past, Slopes, SurfaceVector, Values};
 use crate::equation::{Local, LocalMatrix};
-use crate::model::{Friction, Law};
+use crate::model::Friction;
 use crate::rotation::{log, log_jacobian, skew};
 use crate::state::MarkerFrame;
 
@@ -36,8 +36,7 @@ impl Joining<3> for Ball<'_> {
 
 pub(super) fn evaluate(
     friction: &Friction,
-    memory: &Memory,
-    past: &BristlePast,
+    past: &Past<'_>,
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
@@ -47,27 +46,19 @@ pub(super) fn evaluate(
     let omega = i.omega - j.omega;
     let to_j = j.axes.transpose();
     let velocity = arm * (to_j * omega);
-    let sticks = memory.stuck && matches!(friction.law, Law::Original(_));
-    let (creep, turn) = if sticks {
-        let theta = log(&(to_j * i.axes * memory.rotation.transpose()));
-        // The rotation of I comes in from the left, hence the Jacobian at −θ.
-        (
-            Vector3::from(memory.creep) + arm * theta,
-            arm * log_jacobian(&-theta),
-        )
-    } else {
-        (Vector3::zeros(), Matrix3::zeros())
-    };
+    let memory = past.memory;
+    let theta = log(&(to_j * i.axes * memory.rotation.transpose()));
+    let since = memory.creep_at(friction, past.time, &(arm * theta).into(), &velocity.into());
+    let creep = since.map_or([0.0; 3], |creep| creep.value);
     let joining = Ball {
         friction,
         load: load.load.value,
     };
     let r = respond(
         friction,
-        memory,
         past,
         &velocity.into(),
-        &creep.into(),
+        &creep,
         &load.load,
         [arm; 3],
         &joining,
@@ -79,7 +70,11 @@ pub(super) fn evaluate(
         translation: Vector3::zeros(),
         rotation: anchor.tr_mul(&vector),
     };
-    let visible = if stuck { creep } else { Vector3::zeros() };
+    let visible = if stuck {
+        Vector3::from(creep)
+    } else {
+        Vector3::zeros()
+    };
     let mut element = Element {
         values: Values {
             force: Vector3::zeros(),
@@ -119,8 +114,15 @@ pub(super) fn evaluate(
     };
     let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
     // Derivatives of the torque along ground axes by the relative velocity and rotation.
-    let by_omega = j.axes * matrix(r.resultant.by_velocity) * arm * to_j;
-    let by_theta_i = j.axes * matrix(r.resultant.by_creep) * turn * to_j;
+    let by_creep = matrix(r.resultant.by_creep);
+    let (mut by_velocity, mut by_theta_i) = (matrix(r.resultant.by_velocity), Matrix3::zeros());
+    if let Some(since) = since {
+        // The rotation of I comes in from the left, hence the Jacobian at −θ.
+        let turn = arm * log_jacobian(&-theta);
+        by_theta_i = j.axes * by_creep * matrix(since.by_slip) * turn * to_j;
+        by_velocity += by_creep * matrix(since.by_velocity);
+    }
+    let by_omega = j.axes * by_velocity * arm * to_j;
     // δ(A_J T) = δθ_J × (A_J T) + A_J δT, and δ(A_Jᵀ ω) = −A_Jᵀ (δθ_J × ω).
     let by_theta_j = -skew(&torque) - by_theta_i + by_omega * skew(&omega);
     let along = j.axes * Vector3::from(r.resultant.by_load);

@@ -64,7 +64,7 @@ impl Simulation {
     pub(super) fn run_error(
         &self,
         error: &bdf::Error<Failure>,
-        dynamics: &Dynamics,
+        dynamics: &mut Dynamics,
         bdf: &Bdf,
     ) -> RunError {
         match error {

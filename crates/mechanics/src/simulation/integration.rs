@@ -316,7 +316,7 @@ impl Simulation {
         dynamics.start_multipliers(self.state.time, &self.multipliers);
         let powers = &slope[self.state.work_range()];
         dynamics.start_works(self.state.time, self.state.works(), powers);
-        dynamics.start_rates(&self.accelerations);
+        dynamics.start_rates(&self.accelerations, &slope[self.state.bristle_range()]);
         bdf.start(dynamics, self.state.time, &self.state.values, slope, first);
     }
 
@@ -431,7 +431,7 @@ impl Simulation {
     fn first_step(
         &self,
         instant: &mut Instant,
-        dynamics: &Dynamics,
+        dynamics: &mut Dynamics,
         slope: &[f64],
         end: f64,
         settings: &Settings,
@@ -452,7 +452,7 @@ impl Simulation {
     fn curvature_error(
         &self,
         instant: &mut Instant,
-        dynamics: &Dynamics,
+        dynamics: &mut Dynamics,
         slope: &[f64],
         ahead: f64,
     ) -> Option<f64> {

@@ -44,7 +44,7 @@ impl Simulation {
         );
         match solved {
             Ok(report) => {
-                self.system.accept_frictions(&self.multipliers, 0.0);
+                self.system.accept_frictions(&self.multipliers);
                 self.system.remember_angles();
                 self.accelerations.fill(0.0);
                 Ok(report)

@@ -119,8 +119,8 @@ impl System {
         }
     }
 
-    /// Takes over the present instant as the end of an accepted step of length `size`.
-    pub(crate) fn accept_frictions(&mut self, multipliers: &[f64], size: f64) {
+    /// Takes over the present instant as the end of an accepted step.
+    pub(crate) fn accept_frictions(&mut self, multipliers: &[f64]) {
         for place in 0..self.model.frictions.len() {
             if !self.friction_acts(place) {
                 // What rests begins anew: stuck without creep where the joint stands.
@@ -132,7 +132,6 @@ impl System {
             let friction = &self.model.frictions[place];
             let end = StepEnd {
                 time: self.inputs.time,
-                size,
                 deflection: element.deflection,
                 load: friction.surface_load(&element.values.load),
             };

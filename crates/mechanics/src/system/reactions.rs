@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner, places_of};
 use crate::equation::Equation;
-use crate::joint_friction::{self, Element, Share, Slopes};
+use crate::joint_friction::{self, Element, Past, Share, Slopes};
 use crate::model::Element as ModelElement;
 use crate::rotation::skew;
 use crate::snapshot::Wrench;
@@ -161,11 +161,13 @@ impl System {
             return (Element::AT_REST, i, j);
         }
         let (force, moment) = self.reaction(place, &j, multipliers);
-        let memory = &self.history.frictions[place];
-        let bristles = self.bristle_past(place);
+        let past = Past {
+            memory: &self.history.frictions[place],
+            bristles: self.bristle_past(place),
+            time: self.inputs.time,
+        };
         let (force, moment) = (force.into(), moment.into());
-        let element =
-            joint_friction::evaluate(friction, memory, bristles, &i, &j, force, moment, slopes);
+        let element = joint_friction::evaluate(friction, &past, &i, &j, force, moment, slopes);
         (element, i, j)
     }
 }

@@ -169,3 +169,33 @@ fn hht_is_of_second_order_for_bodies_that_turn_in_space() {
     println!("HHT in space: errors {errors:?}, order {order:.3}");
     assert!((order - 2.0).abs() < 0.2, "{order}");
 }
+
+#[test]
+fn hht_is_of_second_order_for_bristles() {
+    // Its bristles relax in g/(s0 v) = 40 ms or more, so that the steps resolve them.
+    let sleeve = mechanisms::Sleeve {
+        weight: 2.0 * 9.80665,
+        inertia: 0.0016,
+        pin_radius: 0.04,
+        start: [0.1, 2.0],
+    };
+    let model = sleeve.model(friction::LuGre {
+        bristle_stiffness: 1e3,
+        damping: 1.0,
+        stribeck_velocity: 0.1,
+        ..mechanisms::bristles(0.25, 0.2)
+    });
+    let place = |formulation, error, longest_step| {
+        let mut simulation = assembled(model.clone());
+        let settings = settings(formulation, error, longest_step);
+        go_on(&mut simulation, &[0.2], &settings, |_| {});
+        simulation.state().centre(0)
+    };
+    let exact = place(Formulation::Si2, 1e-11, 0.01);
+    let hht = Formulation::Hht { alpha: -0.3 };
+    // An error that just does not limit the step, so that Newton's iteration leaves less.
+    let errors = [1e-3, 5e-4].map(|h| (place(hht, 30.0 * h * h, h) - exact).norm());
+    let order = (errors[0] / errors[1]).log2();
+    println!("HHT with bristles: errors {errors:?}, order {order:.3}");
+    assert!((order - 2.0).abs() < 0.25, "{order}");
+}

@@ -53,7 +53,7 @@ impl Bdf {
     /// Error that the formula of order `k` would have made.
     pub(super) fn estimate<S: System>(
         &mut self,
-        system: &S,
+        system: &mut S,
         predictor: usize,
         k: usize,
         time: f64,
@@ -81,7 +81,7 @@ impl Bdf {
     /// the other.
     fn backward_error<S: System>(
         &mut self,
-        system: &S,
+        system: &mut S,
         predictor: usize,
         k: usize,
         time: f64,
@@ -105,7 +105,13 @@ impl Bdf {
 
     /// Error of the formula of Adams and Moulton of order `k`: the divided difference of order `k` of
     /// the slopes times its `error_integral`.
-    fn adams_error<S: System>(&mut self, system: &S, predictor: usize, k: usize, time: f64) -> f64 {
+    fn adams_error<S: System>(
+        &mut self,
+        system: &mut S,
+        predictor: usize,
+        k: usize,
+        time: f64,
+    ) -> f64 {
         let constant = error_integral(self.slopes.nodes(), k, time);
         let (scale, j, weight) = if k == predictor {
             (constant, 0, 0.0)

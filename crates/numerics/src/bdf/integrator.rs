@@ -69,7 +69,7 @@ pub enum Error<F> {
 ///         y[0] = step.history[0] / (1.0 + step.gamma);
 ///         Ok(())
 ///     }
-///     fn norm(&self, difference: &[f64]) -> f64 {
+///     fn norm(&mut self, difference: &[f64]) -> f64 {
 ///         difference[0].abs() / 1e-8
 ///     }
 ///     fn accepted(&mut self, _: &Step<'_>, _: &[f64]) {}

@@ -125,7 +125,7 @@ pub trait System {
 
     /// Size of `difference` (between two values of `y`) in units of the error tolerance: at most
     /// one is acceptable. Components that must not take part in the error test count nothing.
-    fn norm(&self, difference: &[f64]) -> f64;
+    fn norm(&mut self, difference: &[f64]) -> f64;
 
     /// Writes the slope `ẏ` at the solved end `y` of `step`, for formulas that go on from slopes.
     fn slope(&self, step: &Step<'_>, y: &[f64], slope: &mut [f64]) {
