@@ -32,19 +32,26 @@ impl Claim {
     /// # std::fs::remove_dir(&folder).unwrap();
     /// # Ok::<(), stiction::OutputError>(())
     /// ```
-    #[cfg(unix)]
     pub fn of(folder: &Path) -> Result<Self, OutputError> {
-        let shown = folder.display().to_string();
-        let opened = std::fs::File::open(folder);
-        let opened = opened.map_err(|error| OutputError::new(shown.clone(), &error))?;
-        match opened.try_lock() {
-            Err(std::fs::TryLockError::WouldBlock) => Err(OutputError::new(
-                shown,
-                &"another run is writing results into this folder; wait for it, or choose another one",
-            )),
+        Self::of_free(folder)?.ok_or_else(|| {
+            let cause = "another run is writing results into this folder; wait for it, or choose another one";
+            OutputError::new(folder.display().to_string(), &cause)
+        })
+    }
+
+    /// Claims a folder that exists; none where another process has claimed it.
+    ///
+    /// # Errors
+    /// It cannot be opened.
+    #[cfg(unix)]
+    pub fn of_free(folder: &Path) -> Result<Option<Self>, OutputError> {
+        let opened = std::fs::File::open(folder)
+            .map_err(|error| OutputError::new(folder.display().to_string(), &error))?;
+        Ok(match opened.try_lock() {
+            Err(std::fs::TryLockError::WouldBlock) => None,
             // Without locks there is nothing to ask.
-            Ok(()) | Err(std::fs::TryLockError::Error(_)) => Ok(Self { _folder: opened }),
-        }
+            Ok(()) | Err(std::fs::TryLockError::Error(_)) => Some(Self { _folder: opened }),
+        })
     }
 
     /// Claims a folder that exists.
@@ -52,7 +59,7 @@ impl Claim {
     /// # Errors
     /// None where folders cannot be locked.
     #[cfg(not(unix))]
-    pub fn of(_: &Path) -> Result<Self, OutputError> {
-        Ok(Self {})
+    pub fn of_free(_: &Path) -> Result<Option<Self>, OutputError> {
+        Ok(Some(Self {}))
     }
 }

@@ -2,7 +2,6 @@
 //!
 //! ```text
 //! DIR/study.json            what study it is
-//! DIR/study.lock            held while a process works on the study
 //! DIR/parts/NUMBER.parquet  cases that are done, while the study goes on
 //! DIR/cases.parquet         all cases in their order, once the study is done; the parts go then
 //! ```
@@ -10,14 +9,13 @@
 //! Every file is written under another name, brought to the disk and renamed, so that what has its
 //! name is whole. One process writes; a case that is recorded already is not recorded again.
 
-use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use columnar::WholeTable;
 use serde_json::Value as Json;
-use stiction::OutputError;
+use stiction::{Claim, OutputError};
 
 use crate::study::{Row, Study};
 use crate::table;
@@ -58,8 +56,7 @@ pub struct Record {
 #[derive(Debug)]
 struct Folder {
     path: PathBuf,
-    /// Its lock goes when it is closed, however the process ends.
-    _lock: File,
+    _claim: Claim,
     /// Cases that are not in a part yet.
     pending: Vec<usize>,
     written: Instant,
@@ -94,16 +91,9 @@ impl Record {
             cause: error.to_string(),
         };
         std::fs::create_dir_all(path).map_err(|error| wrong(path, &error))?;
-        let lock = path.join("study.lock");
-        let file = File::options().create(true).append(true).open(&lock);
-        let file = file.map_err(|error| wrong(&lock, &error))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(RecordError::InUse(path.display().to_string()));
-            }
-            Err(TryLockError::Error(error)) => return Err(wrong(&lock, &error).into()),
-        }
+        let Some(claim) = Claim::of_free(path)? else {
+            return Err(RecordError::InUse(path.display().to_string()));
+        };
         let manifest = path.join("study.json");
         let parts = path.join("parts");
         if manifest.exists() {
@@ -118,9 +108,7 @@ impl Record {
         } else {
             let entries = std::fs::read_dir(path).map_err(|error| wrong(path, &error))?;
             let mut names = entries.flatten().map(|entry| entry.file_name());
-            if let Some(other) =
-                names.find(|name| name != "study.lock" && name != "study.json.part")
-            {
+            if let Some(other) = names.find(|name| name != "study.json.part") {
                 let name = other.to_string_lossy();
                 return Err(refused(format!(
                     "it holds {name}; take an empty folder, or a new one"
@@ -133,7 +121,7 @@ impl Record {
         let next = record.read(path).map_err(refused)?;
         record.folder = Some(Folder {
             path: path.to_owned(),
-            _lock: file,
+            _claim: claim,
             pending: Vec::new(),
             written: Instant::now(),
             next,
@@ -360,7 +348,7 @@ fn compare(known: &str, study: &Json) -> Result<(), String> {
 fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
     let part = path.with_added_extension("part");
     let written = std::fs::write(&part, text)
-        .and_then(|()| File::open(&part)?.sync_all())
+        .and_then(|()| std::fs::File::open(&part)?.sync_all())
         .and_then(|()| std::fs::rename(&part, path));
     written.map_err(|error| {
         let _ = std::fs::remove_file(&part);
