@@ -41,7 +41,7 @@ impl Dynamics {
             let velocities = &difference[places..self.state.motions()];
             for (k, d) in velocities.iter().enumerate() {
                 let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
-                let scale = unit * rate;
+                let scale = unit * (rate + self.left_of_velocities);
                 largest.take(d.abs() / (scale * tolerance), places + k);
             }
         } else if self.tests_free_velocities() {
