@@ -37,24 +37,20 @@ impl Dynamics {
             let unit = if k % POSITIONS < 3 { length } else { 0.5 };
             largest.take(d.abs() / (unit * tolerance), k);
         }
-        if self.present != Index::Three || self.formulation.tests_velocities() {
-            let velocities = &difference[places..self.state.motions()];
-            for (k, d) in velocities.iter().enumerate() {
-                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
-                let scale = unit * (rate + self.left_of_velocities);
-                largest.take(d.abs() / (scale * tolerance), places + k);
-            }
-        } else if self.tests_free_velocities() {
-            let moving = places + self.system.velocity_count();
-            self.free_velocities(&difference[places..moving]);
-            let scale = rate + self.left_of_velocities;
-            for (k, d) in self.right[..self.system.velocity_count()]
-                .iter()
-                .enumerate()
-            {
-                let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
-                largest.take(d.abs() / (unit * scale * self.error), places + k);
-            }
+        let velocities = &difference[places..self.state.motions()];
+        let (velocities, allowed): (&[f64], f64) =
+            if self.present != Index::Three || self.formulation.tests_velocities() {
+                (velocities, tolerance)
+            } else if self.tests_free_velocities() {
+                self.free_velocities(velocities);
+                (&self.right[..velocities.len()], self.error)
+            } else {
+                (&[], tolerance)
+            };
+        let scale = rate + self.left_of_velocities;
+        for (k, d) in velocities.iter().enumerate() {
+            let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
+            largest.take(d.abs() / (unit * scale * allowed), places + k);
         }
         let states = self.state.state_range();
         let scales = self.state_scales.iter().zip(self.state.states());
