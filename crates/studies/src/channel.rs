@@ -20,8 +20,6 @@ enum Recipe {
     /// Of a motion about one axis, of which the two other components are zero.
     Sum([usize; 3]),
     Length([usize; 3]),
-    /// The length with the sign of the sum of three others.
-    SignedLength([usize; 3], [usize; 3]),
     /// The first part of all four by their magnitudes.
     Share(usize, [usize; 4]),
 }
@@ -38,7 +36,6 @@ impl Channel {
             Recipe::Value(place) => row[place],
             Recipe::Sum(places) => sum(places),
             Recipe::Length(places) => length(places),
-            Recipe::SignedLength(places, signs) => length(places).copysign(sum(signs)),
             Recipe::Share(place, all) => {
                 let total: f64 = all.iter().map(|place| row[*place].abs()).sum();
                 if total > 0.0 {
@@ -94,19 +91,11 @@ impl Friction<'_> {
             channel(unit, recipe)
         };
         match name {
-            "force" if slides => self.component("FZ"),
-            "torque" if turns => {
-                let (torque, unit) = self.three(["TX", "TY", "TZ"])?;
-                let (mu, _) = self.three(["MURX", "MURY", "MURZ"])?;
-                match self.kind {
-                    "REVOLUTE" | "CYLINDRICAL" => self.component("TZ"),
-                    "SPHERICAL" => channel(unit, Recipe::Length(torque)),
-                    // Of a yoke the axis turns in J; the torque goes the way of the coefficient.
-                    _ => channel(unit, Recipe::SignedLength(torque, mu)),
-                }
-            }
+            "force" if slides => self.component("FRICTION"),
+            // What slides has its force there.
+            "torque" if turns => self.component(if slides { "TZ" } else { "FRICTION" }),
             "mu" => about_axis(["MUX", "MUY", "MUZ"], ["MURX", "MURY", "MURZ"]),
-            "velocity" => about_axis(["VX", "VY", "VZ"], ["WX", "WY", "WZ"]),
+            "velocity" => self.component("VELOCITY"),
             "creep" => about_axis(
                 ["CREEP_X", "CREEP_Y", "CREEP_Z"],
                 ["CREEP_AX", "CREEP_AY", "CREEP_AZ"],
