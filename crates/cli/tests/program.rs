@@ -1,10 +1,14 @@
 //! The program, driven from outside: exit codes, folders, changes, kept results, JSON, Ctrl-C.
 
+#[cfg(unix)]
+mod running;
 mod shared;
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
+#[cfg(unix)]
+use running::Running;
 use shared::{code, errors, folder, stiction};
 
 const PENDULUM: &str = "A pendulum
@@ -468,36 +472,8 @@ fn progress_comes_as_lines_of_json() {
 fn an_interrupt_keeps_the_results() {
     let folder = folder("interrupt", &[("p.adm", PENDULUM)]);
     // Far more outputs than can be written before the signal comes.
-    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
-        .args([
-            "run",
-            "p.adm",
-            "--end",
-            "1e5",
-            "--dtout",
-            "0.1",
-            "--progress",
-            "json",
-        ])
-        .current_dir(&folder)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The first line of progress says that the run is on its way.
-    let mut progress = std::io::BufReader::new(child.stderr.take().unwrap());
-    let mut line = String::new();
-    std::io::BufRead::read_line(&mut progress, &mut line).unwrap();
-    assert!(line.starts_with('{'), "{line}");
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(sent.success());
-    // Keep reading, so that the program is not held up by a full pipe.
-    let mut rest = String::new();
-    std::io::Read::read_to_string(&mut progress, &mut rest).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let running = Running::start(&folder, &["run", "p.adm", "--end", "1e5", "--dtout", "0.1"]);
+    assert_eq!(code(&running.interrupt()), 130);
     let results = std::fs::read_to_string(folder.join("p-run/p.res")).unwrap();
     assert!(results.contains("runStatus=\"Interrupted\""));
     let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
@@ -811,23 +787,14 @@ fn a_folder_in_use_is_refused_and_nothing_of_another_run_stays() {
     let short = ["run", "p.adm", "--end", "0.1", "-o", "here"];
     let tables = [&short[..], &["--format", "parquet,csv"]].concat();
     assert_eq!(code(&stiction(&folder, &tables)), 0);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
-        .args([
-            "run", "p.adm", "--end", "1e5", "--dtout", "0.1", "-o", "here",
-        ])
-        .args(["--force", "--progress", "json"])
-        .current_dir(&folder)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut progress = std::io::BufReader::new(child.stderr.take().unwrap());
-    let mut line = String::new();
-    std::io::BufRead::read_line(&mut progress, &mut line).unwrap();
+    let long = [
+        "run", "p.adm", "--end", "1e5", "--dtout", "0.1", "-o", "here", "--force",
+    ];
+    let mut running = Running::start(&folder, &long);
     let output = stiction(&folder, &[&short[..], &["--force"]].concat());
     // Killed, so that it cannot tidy up; the lock goes with it.
-    child.kill().unwrap();
-    child.wait().unwrap();
+    running.child.kill().unwrap();
+    running.child.wait().unwrap();
     assert_eq!(code(&output), 2);
     let said = errors(&output);
     assert!(said.contains("here: another run is writing"), "{said}");

@@ -1,11 +1,14 @@
 //! `stiction sweep`, driven from outside: tables, resuming, exit codes, located errors of study files.
 
+#[cfg(unix)]
+mod running;
 mod shared;
 
-use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
+#[cfg(unix)]
+use running::Running;
 use shared::{code, errors, folder, stiction};
 
 /// A block that is pulled by 10 N/s and sticks until 0.3 * 2 * 9.81 N.
@@ -256,27 +259,10 @@ fn an_interrupted_study_keeps_what_is_done() {
         "sweep-interrupt",
         &[("block.adm", BLOCK.to_owned()), ("many.toml", many)],
     );
-    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
-        .args(["sweep", "many.toml", "--progress", "json"])
-        .current_dir(&folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut progress = BufReader::new(child.stderr.take().unwrap());
-    let mut line = String::new();
-    // Behind the warnings about the model.
-    while !line.starts_with('{') {
-        line.clear();
-        assert!(progress.read_line(&mut line).unwrap() > 0, "no progress");
-    }
+    let running = Running::start(&folder, &["sweep", "many.toml"]);
+    let line = &running.line;
     assert!(line.starts_with("{\"cases\":80000,\"done\":"), "{line}");
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(sent.unwrap().success());
-    progress.read_to_string(&mut line).unwrap();
-    let output = child.wait_with_output().unwrap();
+    let output = running.interrupt();
     assert_eq!(code(&output), 130);
     assert!(
         said(&output).contains("--resume goes on from here"),
