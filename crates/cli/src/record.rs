@@ -121,11 +121,6 @@ pub(crate) fn write(
         value[name] = part;
     }
     // Half a record would be none, but the folder is not to look as if there were one.
-    let [part, whole] = ["run.json.part", "run.json"].map(|name| folder.join(name));
-    let written = std::fs::write(&part, format!("{value:#}\n"));
-    let named = written.and_then(|()| std::fs::rename(&part, &whole));
-    if named.is_err() {
-        let _ = std::fs::remove_file(&part);
-    }
-    named
+    let text = format!("{value:#}\n");
+    stiction::write_whole(&folder.join("run.json"), |part| std::fs::write(part, text))
 }

@@ -34,11 +34,11 @@ use std::path::{Path, PathBuf};
 
 use parquet::data_type::ByteArray;
 use serde_json::{Map, Value, json};
-use stiction::OutputError;
 use stiction::sink::{DataKind, Header, Layout, Sink};
+use stiction::{OutputError, write_whole};
 
 pub use crate::table::Values;
-use crate::table::{Heading, Kind, Table, part};
+use crate::table::{Heading, Kind, Table};
 pub use crate::whole::{Column, WholeTable, read, write};
 
 /// A format of tables.
@@ -111,10 +111,8 @@ impl Tables {
             let facts = open.facts.into_iter();
             let facts: Map<String, Value> = facts.map(|(k, fact)| (k, fact.into())).collect();
             let text = format!("{:#}\n", Value::Object(facts));
-            let part = part(&path);
-            let written = std::fs::write(&part, text);
-            let named = written.and_then(|()| std::fs::rename(&part, &path));
-            named.map_err(|error| wrong(&path, &error))?;
+            let written = write_whole(&path, |part| std::fs::write(part, text));
+            written.map_err(|error| OutputError::at(&path, &error))?;
             files.push(path);
         }
         Ok(files)
@@ -218,18 +216,10 @@ pub fn clear(folder: &Path, others: &[&str]) -> Result<(), OutputError> {
         let path = folder.join(name);
         match std::fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                return Err(wrong(&path, &error));
+                return Err(OutputError::at(&path, &error));
             }
             _ => {}
         }
     }
     Ok(())
-}
-
-/// A file that cannot be written.
-fn wrong(path: &Path, cause: &impl ToString) -> OutputError {
-    OutputError {
-        path: path.display().to_string(),
-        cause: cause.to_string(),
-    }
 }

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use parquet::data_type::ByteArray;
-use stiction::OutputError;
+use stiction::{OutputError, unfinished};
 
+use crate::Format;
 use crate::csv::CsvFile;
 use crate::parquet_file::ParquetFile;
-use crate::{Format, wrong};
 
 /// Values of a table that are kept before they are written.
 const BATCH: usize = 1 << 20;
@@ -102,11 +102,6 @@ pub(crate) struct Table {
     files: Vec<(PathBuf, Box<dyn TableFile>)>,
 }
 
-/// The name of a file that is not whole yet.
-pub(crate) fn part(path: &Path) -> PathBuf {
-    path.with_added_extension("part")
-}
-
 impl Table {
     /// Creates the files of a table.
     pub(crate) fn create(
@@ -122,15 +117,15 @@ impl Table {
                 Format::Csv => "csv",
             };
             let path = folder.join(format!("{name}.{extension}"));
-            let created = std::fs::File::create(part(&path));
-            let file = created.map_err(|error| wrong(&path, &error))?;
+            let created = std::fs::File::create(unfinished(&path));
+            let file = created.map_err(|error| OutputError::at(&path, &error))?;
             let begun: Result<Box<dyn TableFile>, String> = match format {
                 Format::Parquet => {
                     ParquetFile::new(file, &headings).map(|file| Box::new(file) as _)
                 }
                 Format::Csv => CsvFile::new(file, &headings).map(|file| Box::new(file) as _),
             };
-            let begun = begun.map_err(|cause| wrong(&path, &cause))?;
+            let begun = begun.map_err(|cause| OutputError::at(&path, &cause))?;
             files.push((path, begun));
         }
         let columns = headings.iter().map(|heading| Values::new(heading.kind));
@@ -172,7 +167,7 @@ impl Table {
     fn write(&mut self) -> Result<(), OutputError> {
         for (path, file) in &mut self.files {
             let written = file.batch(&self.columns, self.rows);
-            written.map_err(|cause| wrong(path, &cause))?;
+            written.map_err(|cause| OutputError::at(path, &cause))?;
         }
         self.columns.iter_mut().for_each(Values::clear);
         self.rows = 0;
@@ -190,9 +185,9 @@ impl Table {
         let mut paths = Vec::new();
         for (path, file) in self.files {
             let ended = file.finish(facts);
-            ended.map_err(|cause| wrong(&path, &cause))?;
-            let named = std::fs::rename(part(&path), &path);
-            named.map_err(|error| wrong(&path, &error))?;
+            ended.map_err(|cause| OutputError::at(&path, &cause))?;
+            let named = std::fs::rename(unfinished(&path), &path);
+            named.map_err(|error| OutputError::at(&path, &error))?;
             paths.push(path);
         }
         Ok(paths)

@@ -1,17 +1,17 @@
 //! Tables that are written and read as a whole, as Parquet files.
 
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use stiction::OutputError;
+use stiction::{OutputError, write_whole};
 
 use crate::parquet_file::ParquetFile;
-use crate::table::{Heading, TableFile, Values, part};
-use crate::wrong;
+use crate::table::{Heading, TableFile, Values};
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,21 +53,16 @@ pub fn write(path: &Path, table: &WholeTable) -> Result<(), OutputError> {
         .map(|c| Heading::new(&c.name, c.values.kind()))
         .collect();
     let values: Vec<_> = table.columns.iter().map(|c| c.values.clone()).collect();
-    let unfinished = part(path);
-    let written = File::create(&unfinished)
-        .map_err(|error| error.to_string())
-        .and_then(|file| {
-            let mut file = ParquetFile::new(file, &headings)?;
-            file.batch(&values, 0)?;
-            Box::new(file).finish(&table.facts)?;
-            std::fs::rename(&unfinished, path).map_err(|error| error.to_string())?;
-            sync_folder(path).map_err(|error| error.to_string())
-        });
-    written.map_err(|cause| {
-        // What is left of it would only take space from a disk that may be full.
-        let _ = std::fs::remove_file(&unfinished);
-        wrong(path, &cause)
+    let fill = |file| -> Result<(), String> {
+        let mut file = ParquetFile::new(file, &headings)?;
+        file.batch(&values, 0)?;
+        Box::new(file).finish(&table.facts)
+    };
+    write_whole(path, |part| {
+        fill(File::create(part)?).map_err(io::Error::other)
     })
+    .and_then(|()| sync_folder(path))
+    .map_err(|error| OutputError::at(path, &error))
 }
 
 /// Brings the names of a folder to the disk.
@@ -85,8 +80,8 @@ fn sync_folder(path: &Path) -> std::io::Result<()> {
 /// # Errors
 /// A file that is not there, that is damaged, or that holds other types.
 pub fn read(path: &Path) -> Result<WholeTable, OutputError> {
-    let opened = File::open(path).map_err(|error| wrong(path, &error))?;
-    table_of(opened).map_err(|error| wrong(path, &error))
+    let opened = File::open(path).map_err(|error| OutputError::at(path, &error))?;
+    table_of(opened).map_err(|error| OutputError::at(path, &error))
 }
 
 fn table_of(file: File) -> Result<WholeTable, ParquetError> {

@@ -27,6 +27,7 @@ use crate::runner::Recorded;
 use crate::saved_system::SavedSystem;
 use crate::sensors::Held;
 use crate::session::{FailedCommand, OutputError};
+use crate::whole_file::write_whole;
 
 /// How files of this and all formats begin.
 const FORMAT: &str = "stiction checkpoint, format 1";
@@ -254,25 +255,19 @@ impl Keeper {
     pub(crate) fn write(&mut self, checkpoint: &Checkpoint<'_>) -> Result<(), OutputError> {
         let text = postcard::to_stdvec(checkpoint).map_err(io::Error::other);
         let written = text.and_then(|body| self.replace(&body));
-        written.map_err(|error| OutputError::new(self.path.display().to_string(), &error))?;
+        written.map_err(|error| OutputError::at(&self.path, &error))?;
         self.last = Some(Instant::now());
         Ok(())
     }
 
     fn replace(&self, body: &[u8]) -> io::Result<()> {
-        let mut part = self.path.as_os_str().to_owned();
-        part.push(".part");
-        let written = std::fs::File::create(&part).and_then(|mut file| {
+        write_whole(&self.path, |part| {
+            let mut file = std::fs::File::create(part)?;
             let head = format!("{FORMAT}\n{}\nsha256 {}\n", program(), checksum(body));
             file.write_all(head.as_bytes())?;
             file.write_all(body)?;
-            file.sync_data()?;
-            std::fs::rename(&part, &self.path)
-        });
-        if written.is_err() {
-            let _ = std::fs::remove_file(&part);
-        }
-        written
+            file.sync_data()
+        })
     }
 
     /// Removes the file: the run has ended.

@@ -35,7 +35,7 @@ impl Claim {
     pub fn of(folder: &Path) -> Result<Self, OutputError> {
         Self::of_free(folder)?.ok_or_else(|| {
             let cause = "another run is writing results into this folder; wait for it, or choose another one";
-            OutputError::new(folder.display().to_string(), &cause)
+            OutputError::at(folder, &cause)
         })
     }
 
@@ -45,8 +45,8 @@ impl Claim {
     /// It cannot be opened.
     #[cfg(unix)]
     pub fn of_free(folder: &Path) -> Result<Option<Self>, OutputError> {
-        let opened = std::fs::File::open(folder)
-            .map_err(|error| OutputError::new(folder.display().to_string(), &error))?;
+        let opened =
+            std::fs::File::open(folder).map_err(|error| OutputError::at(folder, &error))?;
         Ok(match opened.try_lock() {
             Err(std::fs::TryLockError::WouldBlock) => None,
             // Without locks there is nothing to ask.

@@ -84,6 +84,7 @@ mod statics;
 mod survey;
 mod text_table;
 mod warnings;
+mod whole_file;
 mod wrenches;
 
 pub use argument::{Argument, ArgumentError};
@@ -97,9 +98,10 @@ pub use eigensolution::{ModeLine, ModeReport};
 pub use files::{Disk, Files};
 pub use levels::{LevelError, Levels};
 pub use message::{InputError, Message};
-pub use project::Project;
+pub use project::{Project, hexadecimal};
 pub use quantity::{conversion, unit_of};
 pub use report::{FrictionReport, friction_table};
 pub use session::{
     FailedCommand, Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch,
 };
+pub use whole_file::{unfinished, write_whole};

@@ -313,8 +313,13 @@ fn has_error(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|d| d.severity == Severity::Error)
 }
 
-/// Bytes as text.
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+/// Bytes as text, two digits each, as checksums are written.
+///
+/// ```
+/// assert_eq!(stiction::hexadecimal(&[0, 175]), "00af");
+/// ```
+#[must_use]
+pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

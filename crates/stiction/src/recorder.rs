@@ -45,14 +45,12 @@ impl ResultFiles<File> {
         header: &Header,
         channels: &Channels,
     ) -> Result<Self, OutputError> {
-        let wrong =
-            |path: &Path, cause: String| OutputError::new(path.display().to_string(), &cause);
-        let create = |path: &Path| File::create(path).map_err(|e| wrong(path, e.to_string()));
+        let create = |path: &Path| File::create(path).map_err(|e| OutputError::at(path, &e));
         let res = ResWriter::new(create(&paths[0])?, header, channels.layout().clone());
-        let res = res.map_err(|error| wrong(&paths[0], error.to_string()))?;
+        let res = res.map_err(|error| OutputError::at(&paths[0], &error))?;
         let (title, units, requests) = (&header.title, &header.units, channels.requests());
         let req = ReqWriter::new(create(&paths[1])?, title, None, units, requests);
-        let req = req.map_err(|error| wrong(&paths[1], error.to_string()))?;
+        let req = req.map_err(|error| OutputError::at(&paths[1], &error))?;
         Ok(Self { res, req, paths })
     }
 
@@ -98,7 +96,7 @@ pub(crate) fn length_on_disk(file: &File) -> io::Result<u64> {
 
 /// A file to be written on from `length`; what is behind that is dropped.
 pub(crate) fn reopened(path: &Path, length: u64) -> Result<File, ResumeError> {
-    let wrong = |error: io::Error| OutputError::new(path.display().to_string(), &error);
+    let wrong = |error: io::Error| OutputError::at(path, &error);
     let mut file = OpenOptions::new().write(true).open(path).map_err(wrong)?;
     let found = file.metadata().map_err(wrong)?.len();
     if found < length {
@@ -141,7 +139,7 @@ impl Recorder<'_, File> {
 
 impl<W: Write> ResultFiles<W> {
     fn error(&self, place: usize, cause: &impl ToString) -> OutputError {
-        OutputError::new(self.paths[place].display().to_string(), cause)
+        OutputError::at(&self.paths[place], cause)
     }
 
     fn res_error(&self, error: &WriteError) -> OutputError {

@@ -18,6 +18,7 @@ use crate::runner::{Halt, Recorded, Runner, status};
 use crate::saved_system::{SavedSystem, is_saved_system};
 use crate::session::Outcome;
 use crate::survey::{self, Moment};
+use crate::whole_file::write_whole;
 
 impl Runner<'_> {
     /// SAVE.
@@ -65,12 +66,9 @@ impl Runner<'_> {
             return Err(self.refuse(step, text, "give FILE another name"));
         }
         let text = saved.to_text();
-        let written = text.map_err(std::io::Error::other).and_then(|text| {
-            let mut part = path.as_os_str().to_owned();
-            part.push(".part");
-            std::fs::write(&part, text)?;
-            std::fs::rename(&part, path)
-        });
+        let written = text
+            .map_err(std::io::Error::other)
+            .and_then(|text| write_whole(path, |part| std::fs::write(part, text)));
         written.map_err(|error| {
             let text = format!("{shown} cannot be written: {error}");
             self.refuse(step, text, "name a file in a folder that exists")

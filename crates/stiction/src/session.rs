@@ -136,6 +136,12 @@ pub struct OutputError {
 }
 
 impl OutputError {
+    /// Of a file and why it cannot be written.
+    #[must_use]
+    pub fn at(path: &Path, cause: &impl ToString) -> Self {
+        Self::new(path.display().to_string(), cause)
+    }
+
     pub(crate) fn new(path: impl Into<String>, cause: &impl ToString) -> Self {
         Self {
             path: path.into(),

@@ -44,10 +44,8 @@ pub fn run(
     let open = record.open_cases();
     let outputs = record.study().outputs().count();
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let scratch = tempfile::tempdir().map_err(|error| OutputError {
-        path: std::env::temp_dir().display().to_string(),
-        cause: error.to_string(),
-    })?;
+    let scratch =
+        tempfile::tempdir().map_err(|error| OutputError::at(&std::env::temp_dir(), &error))?;
     let (send, receive) = mpsc::channel();
     let work = |folder: &Path, send: mpsc::Sender<Result<Row, OutputError>>| {
         while !stopped.load(Ordering::Relaxed) {

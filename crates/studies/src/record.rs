@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use columnar::WholeTable;
 use serde_json::Value as Json;
-use stiction::{Claim, OutputError};
+use stiction::{Claim, OutputError, write_whole};
 
 use crate::study::{Row, Study};
 use crate::table;
@@ -86,11 +86,7 @@ impl Record {
             folder: path.display().to_string(),
             cause,
         };
-        let wrong = |path: &Path, error: &std::io::Error| OutputError {
-            path: path.display().to_string(),
-            cause: error.to_string(),
-        };
-        std::fs::create_dir_all(path).map_err(|error| wrong(path, &error))?;
+        std::fs::create_dir_all(path).map_err(|error| OutputError::at(path, &error))?;
         let Some(claim) = Claim::of_free(path)? else {
             return Err(RecordError::InUse(path.display().to_string()));
         };
@@ -106,7 +102,7 @@ impl Record {
             let known = known.map_err(|error| refused(format!("study.json: {error}")))?;
             compare(&known, &study.manifest()).map_err(refused)?;
         } else {
-            let entries = std::fs::read_dir(path).map_err(|error| wrong(path, &error))?;
+            let entries = std::fs::read_dir(path).map_err(|error| OutputError::at(path, &error))?;
             let mut names = entries.flatten().map(|entry| entry.file_name());
             if let Some(other) = names.find(|name| name != "study.json.part") {
                 let name = other.to_string_lossy();
@@ -114,9 +110,14 @@ impl Record {
                     "it holds {name}; take an empty folder, or a new one"
                 )));
             }
-            write_text(&manifest, &format!("{:#}\n", study.manifest()))?;
+            let text = format!("{:#}\n", study.manifest());
+            let written = write_whole(&manifest, |part| {
+                std::fs::write(part, text)?;
+                std::fs::File::open(part)?.sync_all()
+            });
+            written.map_err(|error| OutputError::at(&manifest, &error))?;
         }
-        std::fs::create_dir_all(&parts).map_err(|error| wrong(&parts, &error))?;
+        std::fs::create_dir_all(&parts).map_err(|error| OutputError::at(&parts, &error))?;
         let mut record = Self::new(study);
         let next = record.read(path).map_err(refused)?;
         record.folder = Some(Folder {
@@ -342,19 +343,4 @@ fn compare(known: &str, study: &Json) -> Result<(), String> {
             differs.join(", ")
         )),
     }
-}
-
-/// Writes a text to a file that is there as a whole or not at all.
-fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
-    let part = path.with_added_extension("part");
-    let written = std::fs::write(&part, text)
-        .and_then(|()| std::fs::File::open(&part)?.sync_all())
-        .and_then(|()| std::fs::rename(&part, path));
-    written.map_err(|error| {
-        let _ = std::fs::remove_file(&part);
-        OutputError {
-            path: path.display().to_string(),
-            cause: error.to_string(),
-        }
-    })
 }

@@ -6,7 +6,8 @@ use serde_json::{Map, Value as Json, json};
 use sha2::{Digest, Sha256};
 use stiction::sink::Sink;
 use stiction::{
-    ArgumentError, InputError, Outcome, OutputError, Project, RunOptions, RunReport, Session, Watch,
+    ArgumentError, InputError, Outcome, OutputError, Project, RunOptions, RunReport, Session,
+    Watch, hexadecimal,
 };
 
 use crate::design::Design;
@@ -177,6 +178,8 @@ pub struct Study {
     /// Checksums of the model and of all changes of it.
     model: String,
     changes: String,
+    /// Of what all cases have in common, which their hashes begin with.
+    common: Sha256,
 }
 
 impl Study {
@@ -231,8 +234,10 @@ impl Study {
             values,
             model,
             changes: String::new(),
+            common: Sha256::new(),
         };
         study.try_parameters()?;
+        study.common.update(study.identity().to_string());
         let mut all = Sha256::new();
         for change in (0..study.cases()).flat_map(|case| study.changes(case)) {
             all.update(change);
@@ -333,8 +338,7 @@ impl Study {
     /// What makes a case: a SHA-256 of version, model, commands, settings and values.
     #[must_use]
     pub fn hash(&self, case: usize) -> String {
-        let mut hash = Sha256::new();
-        hash.update(self.identity().to_string());
+        let mut hash = self.common.clone();
         for change in self.changes(case) {
             hash.update([0]);
             hash.update(change);
@@ -533,8 +537,4 @@ fn check_names(definition: &Definition) -> Result<(), StudyError> {
         known.push(lower);
     }
     Ok(())
-}
-
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
