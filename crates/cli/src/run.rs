@@ -66,12 +66,8 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let formats = arguments.formats.iter();
     let formats: Vec<_> = formats.filter_map(|format| format.of_tables()).collect();
     if !arguments.resume {
-        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
-        let of_others: &[&str] = match options.text_results {
-            true => &["run.json"],
-            false => &["run.json", &res, &req],
-        };
-        columnar::clear(&folder, of_others).map_err(|error| usage(&error.to_string()))?;
+        let cleared = columnar::clear(&folder, project.prefix(), options.text_results);
+        cleared.map_err(|error| usage(&error.to_string()))?;
     }
     let mut tables = Tables::new(&folder, formats);
     let ran = if arguments.resume {

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use clap::ValueEnum;
 use studies::{Record, StudyFile, Until};
 
-use crate::arguments::{ProgressKind, SweepArguments};
+use crate::arguments::SweepArguments;
 use crate::exit::{Exit, complain, say};
 use crate::progress::Monitor;
 
@@ -109,13 +110,9 @@ fn on_cluster(arguments: &SweepArguments, folder: &Path, address: &str) -> Exit 
     if arguments.resume {
         command.arg("--resume");
     }
-    let progress = match arguments.progress {
-        ProgressKind::Auto => "auto",
-        ProgressKind::Plain => "plain",
-        ProgressKind::Json => "json",
-        ProgressKind::None => "none",
-    };
-    command.args(["--progress", progress]);
+    if let Some(kind) = arguments.progress.to_possible_value() {
+        command.args(["--progress", kind.get_name()]);
+    }
     // Ctrl-C reaches Python as well, which ends the study; this program waits for that.
     let waits = ctrlc::set_handler(|| {});
     if let Err(error) = waits {

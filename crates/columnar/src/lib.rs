@@ -199,20 +199,25 @@ impl Sink for Tables {
     }
 }
 
-/// Removes what another run has left in a folder: its tables, and the files of these names. Beside the
-/// files of a new run they would be taken for parts of it.
+/// Removes what another run has left in a folder: its tables and its record, and its `.res` and `.req`
+/// where the run of this prefix has no `text_results` to put in their place. Beside the files of a new run
+/// they would be taken for parts of it.
 ///
 /// # Errors
 /// Files that cannot be removed.
-pub fn clear(folder: &Path, others: &[&str]) -> Result<(), OutputError> {
-    let tables = [
+pub fn clear(folder: &Path, prefix: &str, text_results: bool) -> Result<(), OutputError> {
+    let others = [
         "friction.parquet",
         "friction.csv",
         "states.parquet",
         "states.csv",
         "tables.json",
+        "run.json",
     ];
-    for name in tables.iter().chain(others) {
+    let [res, req] = ["res", "req"].map(|kind| format!("{prefix}.{kind}"));
+    let texts = [res.as_str(), req.as_str()];
+    let texts = texts.into_iter().filter(|_| !text_results);
+    for name in others.into_iter().chain(texts) {
         let path = folder.join(name);
         match std::fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {

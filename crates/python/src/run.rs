@@ -137,12 +137,8 @@ pub(crate) fn run<'py>(
             text_results: folder.is_some() && wanted("res"),
             ..RunOptions::default()
         };
-        let [res, req] = ["res", "req"].map(|kind| format!("{}.{kind}", project.prefix()));
-        let of_others: &[&str] = match settings.text_results {
-            true => &["run.json"],
-            false => &["run.json", &res, &req],
-        };
-        columnar::clear(into, of_others).map_err(output_failure)?;
+        let cleared = columnar::clear(into, project.prefix(), settings.text_results);
+        cleared.map_err(output_failure)?;
         let mut tables = Tables::new(into, of_tables(&formats));
         let mut sinks: Vec<&mut dyn Sink> = vec![&mut table];
         if folder.is_some() && !tables.is_empty() {
