@@ -70,6 +70,7 @@ fn options(arguments: &RunArguments) -> Value {
         "steps": arguments.steps,
         "dtout": arguments.dtout,
         "error": arguments.error,
+        "integrator": arguments.integrator.map(stiction::Method::name),
         "set": arguments.changes,
     })
 }

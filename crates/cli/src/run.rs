@@ -60,6 +60,7 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut monitor = Monitor::new(arguments.progress);
     let options = RunOptions {
         error: arguments.error,
+        method: arguments.integrator,
         checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
         text_results: arguments.formats.contains(&ResultFormat::Res),
     };

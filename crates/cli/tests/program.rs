@@ -182,6 +182,7 @@ fn wrong_usage_is_2() {
         ],
         &["run", "p.acf", "--end", "1"],
         &["run", "p.adm", "--end", "1", "--error", "0"],
+        &["run", "p.adm", "--end", "1", "--integrator", "adam"],
         &["run"],
         &["walk", "p.adm"],
     ] {
@@ -481,6 +482,23 @@ fn an_interrupt_keeps_the_results() {
 }
 
 #[test]
+fn a_method_of_integration_can_be_chosen() {
+    let folder = folder("method", &[("p.adm", PENDULUM)]);
+    let run = |name: &str| {
+        let arguments = ["run", "p.adm", "--end", "0.1", "--integrator", name];
+        stiction(&folder, &arguments)
+    };
+    let output = run("adams");
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let log = std::fs::read_to_string(folder.join("p-run/p.msg")).unwrap();
+    assert!(log.contains("using Adams-Moulton Integrator"), "{log}");
+    let record = std::fs::read_to_string(folder.join("p-run/run.json")).unwrap();
+    assert!(record.contains("\"integrator\": \"adams\""), "{record}");
+    let output = run("adam");
+    assert!(errors(&output).contains("'adams'"), "{}", errors(&output));
+}
+
+#[test]
 fn help_says_what_there_is() {
     let folder = folder::<&str>("help", &[]);
     let output = stiction(&folder, &["run", "--help"]);
@@ -491,6 +509,7 @@ fn help_says_what_there_is() {
         "--steps",
         "--dtout",
         "--error",
+        "--integrator",
         "--set",
         "--progress",
         "--force",

@@ -112,7 +112,7 @@ mod system_elements;
 
 pub use assembly::{Assembly, AssemblyError, Massless, Moved, Redundancy, Unmet, VelocityChange};
 pub use constraint::Owner;
-pub use dynamics::{Formulation, Sliding, Work};
+pub use dynamics::{Corrector, Formulation, Pattern, Sliding, Work};
 pub use equilibrium::{EquilibriumReport, EquilibriumSettings};
 pub use force_element::{Acting, Ends, ForceComponent, ForceElement, Side};
 pub use gain::Jam;

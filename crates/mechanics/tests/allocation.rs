@@ -3,7 +3,7 @@
 //! A binary of its own, because it counts with a global allocator.
 
 use mechanics::model::Model;
-use mechanics::{Formulation, Observer, Settings, Simulation, Snapshot, StepReport};
+use mechanics::{Corrector, Formulation, Observer, Settings, Simulation, Snapshot, StepReport};
 use mechanisms::chains;
 
 /// Rods that hang on hinges with friction of both formulations.
@@ -40,7 +40,8 @@ fn allocates_nothing(rods: usize) {
         longest_step: 0.02,
         shortest_step: 1e-9,
         first_step: None,
-        newton_iterations: 10,
+        corrector: Corrector::default(),
+        interpolates: true,
     };
     let run = |end: f64| {
         let mut simulation = Simulation::new(chain(rods), 1.0);

@@ -27,6 +27,8 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let methods = stiction::Method::ALL.map(stiction::Method::name);
+        module.add("METHODS", methods.to_vec())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 

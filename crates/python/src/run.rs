@@ -7,9 +7,9 @@ use columnar::{Format, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use stiction::sink::Sink;
-use stiction::{Claim, Message, Progress, RunOptions, RunReport, Session, Watch};
+use stiction::{Claim, Message, Method, Progress, RunOptions, RunReport, Session, Watch};
 
-use crate::project::{Project, input_failure, messages, output_failure};
+use crate::project::{Project, argument_failure, input_failure, messages, output_failure};
 use crate::table::Table;
 
 /// Wall time between two looks at the interpreter: short for people, long for a run.
@@ -99,10 +99,10 @@ impl Told {
 }
 
 /// Runs a model: with a folder results go there in the formats (`res`, `parquet`, `csv`), without one
-/// there are no files. `facts` stand in the metadata of tables, `told` is called with time and end
+/// there are no files. `method` is the name of a method of integration. `facts` stand in the metadata of tables, `told` is called with time and end
 /// now and then.
 #[pyfunction]
-#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, facts, told))]
+#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, method, facts, told))]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     model: &Project,
@@ -112,6 +112,7 @@ pub(crate) fn run<'py>(
     steps: Option<u32>,
     dtout: Option<f64>,
     error: Option<f64>,
+    method: Option<String>,
     facts: Vec<(String, String)>,
     told: Option<Py<PyAny>>,
 ) -> PyResult<Ran<'py>> {
@@ -120,6 +121,8 @@ pub(crate) fn run<'py>(
         told: told.as_ref(),
         stopped: None,
     };
+    let method = method.map(|name| name.parse::<Method>()).transpose();
+    let method = method.map_err(argument_failure)?;
     let mut table = Table::default();
     let ran = py.detach(|| {
         let mut project = model.project.clone();
@@ -134,6 +137,7 @@ pub(crate) fn run<'py>(
         let wanted = |format: &str| formats.iter().any(|wanted| wanted == format);
         let settings = RunOptions {
             error,
+            method,
             text_results: folder.is_some() && wanted("res"),
             ..RunOptions::default()
         };

@@ -5,6 +5,8 @@ from typing import Any
 
 #: Version of the solver.
 __version__: str
+#: Names of the methods of integration.
+METHODS: list[str]
 
 class InputFailure(Exception):
     """What is wrong with an input: text for people, and its messages as JSON."""
@@ -45,6 +47,7 @@ def run(
     steps: int | None,
     dtout: float | None,
     error: float | None,
+    method: str | None,
     facts: list[tuple[str, str]],
     told: Callable[[float, float], object] | None,
 ) -> tuple[str, bytes, bytes, bytes, str, str, str, BaseException | None]: ...

@@ -106,7 +106,23 @@ def test_settings_of_the_integrator_are_taken() -> None:
     other = model.run(end=1.0, dtout=0.1, integrator="HHT, ERROR=1E-6")
     assert other.success and other.stats["steps"] != coarse.stats["steps"]
     with pytest.raises(stiction.InputError, match="GSTIF"):
-        model.run(end=1.0, integrator="GSTIFFF")
+        model.run(end=1.0, integrator="GSTIFFF, ERROR=1E-6")
+
+
+def test_methods_of_integration_are_chosen_by_name() -> None:
+    model = stiction.loads(PENDULUM)
+    exact = model.run(end=0.5, dtout=0.1, error=1e-9)
+    for name in ("gstiff-si2", "gstiff-i3", "hht", "newmark", "adams"):
+        result = model.run(end=0.5, dtout=0.1, error=1e-6, integrator=name)
+        assert f"the integrator is {name}" in result.log
+        # Of the surfaces, 1 cm from the axis; Newmark's method is of first order with its default GAMMA.
+        off = np.abs(result.friction[1].velocity - exact.friction[1].velocity).max()
+        assert off < (1e-3 if name == "newmark" else 1e-5), name
+    assert "Adams-Moulton" in model.run(end=0.1, dtout=0.1, integrator="Adams").log
+    # An argument of the statement alone is not the name of a method.
+    assert "using BDF I3" in model.run(end=0.1, dtout=0.1, integrator="I3").log
+    with pytest.raises(stiction.UnknownName, match="is adams meant"):
+        model.run(end=0.1, integrator="adms")
 
 
 def test_a_run_that_fails_tells_and_keeps_its_results() -> None:

@@ -26,7 +26,7 @@ use crate::report::Counted;
 use crate::runner::Recorded;
 use crate::saved_system::SavedSystem;
 use crate::sensors::Held;
-use crate::session::{FailedCommand, OutputError};
+use crate::session::{FailedCommand, OutputError, RunOptions};
 use crate::whole_file::write_whole;
 
 /// How files of this and all formats begin.
@@ -53,6 +53,8 @@ pub(crate) struct Job {
     changes: Vec<String>,
     commands: Vec<String>,
     error: Option<f64>,
+    /// Name of the method of integration.
+    integrator: Option<String>,
 }
 
 /// A simulation that is not at its end.
@@ -166,7 +168,7 @@ pub enum ResumeError {
 }
 
 impl Job {
-    pub(crate) fn new(project: &Project, error: Option<f64>) -> Self {
+    pub(crate) fn new(project: &Project, options: &RunOptions) -> Self {
         let sources = project.sources.iter();
         Self {
             files: sources
@@ -182,7 +184,8 @@ impl Job {
                 .iter()
                 .map(|step| step.command.echo.clone())
                 .collect(),
-            error,
+            error: options.error,
+            integrator: options.method.map(|method| method.name().to_owned()),
         }
     }
 
@@ -217,12 +220,23 @@ impl Job {
                 found.push(format!("{what}: {} then, {} now", at(then), at(now)));
             }
         }
-        let value = |error: Option<f64>| {
-            error.map_or_else(|| "not given".to_owned(), |error| format!("{error:e}"))
-        };
-        if self.error != before.error {
-            let (then, now) = (value(before.error), value(self.error));
-            found.push(format!("--error: {then} then, {now} now"));
+        let options = [
+            (
+                "--error",
+                self.error.map(|error| format!("{error:e}")),
+                before.error.map(|error| format!("{error:e}")),
+            ),
+            (
+                "--integrator",
+                self.integrator.clone(),
+                before.integrator.clone(),
+            ),
+        ];
+        for (option, now, then) in options {
+            if now != then {
+                let told = |value: Option<String>| value.unwrap_or_else(|| "not given".to_owned());
+                found.push(format!("{option}: {} then, {} now", told(then), told(now)));
+            }
         }
         found
     }

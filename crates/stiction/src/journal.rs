@@ -274,7 +274,7 @@ impl<'p, W: Write> Journal<'p, W> {
         let name = match settings.formulation {
             Formulation::I3 => "BDF I3",
             Formulation::Si2 => "BDF SI2",
-            Formulation::Adams => "Adams",
+            Formulation::Adams => "Adams-Moulton",
             Formulation::Hht { .. } => "HHT I3",
             Formulation::Newmark { .. } => "Newmark I3",
         };
@@ -288,7 +288,7 @@ impl<'p, W: Write> Journal<'p, W> {
             settings.shortest_step,
             settings.longest_step,
             settings.highest_order,
-            settings.newton_iterations
+            settings.corrector.most_iterations(false)
         ))?;
         let written = self.writer.step_table();
         self.check(written)?;

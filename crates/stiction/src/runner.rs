@@ -25,8 +25,9 @@ use crate::report;
 use crate::saved_system::SavedSystem;
 use crate::sensors::{Effect, Keeping, Sensing, Sensors};
 use crate::session::{FailedCommand, Outcome, OutputError, RunOptions, RunReport, Session, Watch};
-use crate::settings::{self, TimeSpan};
+use crate::settings;
 use crate::sink::Sink;
+use crate::time_span::{self, TimeSpan};
 
 /// Rows of the integrator's table, about, for each simulation.
 const TABLE_ROWS: f64 = 10.0;
@@ -182,7 +183,7 @@ impl<'a> Runner<'a> {
         let frictions = report::reports(&simulation.snapshot(), &units);
         let keeper = options.checkpoint.map(|interval| {
             let path = Checkpoint::path(folder, project.prefix());
-            Keeper::new(path, interval, Job::new(project, options.error))
+            Keeper::new(path, interval, Job::new(project, &options))
         });
         let mut runner = Self {
             session,
@@ -358,7 +359,7 @@ impl<'a> Runner<'a> {
         let start = under_way
             .as_ref()
             .map_or(present, |under_way| under_way.start);
-        let span = settings::span(simulate, start).map_err(|error| {
+        let span = time_span::span(simulate, start).map_err(|error| {
             let (code, text) = (error.code(), error.to_string());
             let project = self.session.project;
             let message = project.about(step, Severity::Error, code, text, Some(error.help()));
@@ -529,7 +530,7 @@ impl<'a> Runner<'a> {
             integrator,
             kinematics,
             span.step,
-            self.options.error,
+            &self.options,
             second(&self.dataset),
         );
         let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);
@@ -688,7 +689,7 @@ fn last_end(project: &Project) -> f64 {
         let CommandKind::Simulate(simulate) = &step.command.kind else {
             return time;
         };
-        let span = settings::span(simulate, time).ok().flatten();
+        let span = time_span::span(simulate, time).ok().flatten();
         span.map_or(time, |span| span.end)
     })
 }

@@ -12,6 +12,7 @@ use crate::checkpoint::{Checkpoint, Job, ResumeError};
 use crate::eigensolution::ModeReport;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
+use crate::method::Method;
 use crate::project::Project;
 use crate::report::FrictionReport;
 use crate::runner::Runner;
@@ -22,6 +23,9 @@ use crate::sink::{Layout, Sink};
 pub struct RunOptions {
     /// Error tolerance instead of that of the INTEGRATOR statement.
     pub error: Option<f64>,
+    /// Method of integration instead of that of the INTEGRATOR statement and of commands; its other
+    /// arguments, and the error without one, stay.
+    pub method: Option<Method>,
     /// Wall time between two checkpoints, zero for one after every step: `PREFIX.checkpoint` in the
     /// folder of the results, from which [`Session::resume`] goes on. One is written at the start,
     /// one where the run is interrupted, and none is left behind by a run that has ended. None: no
@@ -36,6 +40,7 @@ impl Default for RunOptions {
     fn default() -> Self {
         Self {
             error: None,
+            method: None,
             checkpoint: None,
             text_results: true,
         }
@@ -254,7 +259,7 @@ impl<'a> Session<'a> {
         watch: &mut dyn Watch,
     ) -> Result<RunReport, ResumeError> {
         let path = Checkpoint::path(folder, self.project.prefix());
-        let job = Job::new(self.project, options.error);
+        let job = Job::new(self.project, &options);
         let checkpoint = Checkpoint::read(&path, &job).map_err(|cause| ResumeError::Refused {
             path: path.display().to_string(),
             cause,

@@ -1,17 +1,14 @@
-//! INTEGRATOR, EQUILIBRIUM and SIMULATE to settings and output times; what is not honoured is
-//! listed.
+//! INTEGRATOR and EQUILIBRIUM to settings; what does not do what it says is told.
 
-use dataset::{
-    Code, Equilibrium, IndexReduction, Integrator, IntegratorMethod, Kinematics, Simulate,
-};
-use mechanics::{EquilibriumSettings, Formulation, Settings};
+use dataset::{Corrector, Equilibrium, IndexReduction, Integrator, IntegratorMethod, Kinematics};
+use mechanics::{EquilibriumSettings, Formulation, Pattern, Settings};
+
+use crate::session::RunOptions;
 
 /// Error tolerance without an INTEGRATOR statement.
 const OWN_ERROR: f64 = 1e-6;
 /// Shortest step where HMIN is not given and that of Adams would be longer, seconds.
 const SHORTEST: f64 = 1e-9;
-/// Highest order of the formulas that are stable enough to be used.
-const HIGHEST_ORDER: u32 = 5;
 /// ALPHA of HHT, BETA and GAMMA of NEWMARK where they are not given (statement page of INTEGRATOR).
 const HHT_ALPHA: f64 = -0.3;
 const NEWMARK_BETA: f64 = 0.36;
@@ -20,11 +17,6 @@ const NEWMARK_GAMMA: f64 = 0.7;
 const ALPHAS: [f64; 2] = [-1.0 / 3.0, 0.0];
 const BETAS: [f64; 2] = [0.25, 1.0];
 const GAMMAS: [f64; 2] = [0.5, 1.0];
-/// Output steps of a SIMULATE with neither STEPS nor DTOUT.
-const DEFAULT_STEPS: u32 = 50;
-/// More outputs than this in one simulation are refused.
-const MOST_OUTPUTS: f64 = 1e7;
-
 /// How a simulation is integrated, and what to tell about it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Choice {
@@ -33,29 +25,52 @@ pub(crate) struct Choice {
     pub(crate) notes: Vec<String>,
 }
 
-/// Settings of a simulation with outputs every `output_step`; `error` overrides the tolerance, and
-/// HMAX of `kinematics`, where it is kinematic, limits the step, too.
+/// Settings of a simulation with outputs every `output_step`; `method` and `error` override those of
+/// the statement, and HMAX of `kinematics`, where it is kinematic, limits the step, too.
 ///
-/// Defaults are those of Adams (I3, error 1e-3, HMAX of one output step, KMAX 6, MAXIT 10), except
-/// that without any INTEGRATOR statement it is SI2 with error 1e-6, and that HMIN is a nanosecond
-/// where 1e-6 HMAX is longer. `second` is one second in the unit of time.
+/// Defaults are those of Adams (I3, error 1e-3, HMAX of one output step, KMAX 6), except
+/// that without any INTEGRATOR statement it is SI2 with error 1e-6, that HMIN is a nanosecond
+/// where 1e-6 HMAX is longer, and what docs/integrators.md says of HINIT, MAXIT, PATTERN,
+/// CORRECTOR and INTERPOLATE. `second` is one second in the unit of time.
 pub(crate) fn choose(
     integrator: Option<&Integrator>,
     kinematics: Option<&Kinematics>,
     output_step: f64,
-    error: Option<f64>,
+    options: &RunOptions,
     second: f64,
 ) -> Choice {
     let mut notes = Vec::new();
     let fallback = Integrator::default();
+    let given = integrator.unwrap_or(&fallback);
+    // Another method does not change the error.
+    let default_error = match given.method {
+        _ if integrator.is_none() => OWN_ERROR,
+        Some(IntegratorMethod::Hht | IntegratorMethod::Newmark) => 1e-5,
+        _ => 1e-3,
+    };
+    let error = options.error.or(given.error).unwrap_or(default_error);
+    let (method, index) = match options.method {
+        Some(method) => {
+            notes.push(format!(
+                "the integrator is {}, whatever the model says",
+                method.name()
+            ));
+            method.arguments()
+        }
+        None => (
+            given.method.unwrap_or(IntegratorMethod::Gstiff),
+            given.formulation,
+        ),
+    };
     if integrator.is_none() {
+        let used = match options.method {
+            None => "stabilised index 2 (SI2) with ",
+            Some(_) => "",
+        };
         notes.push(format!(
-            "no INTEGRATOR statement: stabilised index 2 (SI2) with error {:e} is used",
-            error.unwrap_or(OWN_ERROR)
+            "no INTEGRATOR statement: {used}error {error:e} is used"
         ));
     }
-    let given = integrator.unwrap_or(&fallback);
-    let method = given.method.unwrap_or(IntegratorMethod::Gstiff);
     let formulation = match method {
         IntegratorMethod::Hht => Formulation::Hht {
             alpha: in_range(given.alpha, HHT_ALPHA, ALPHAS, "ALPHA", &mut notes),
@@ -64,86 +79,129 @@ pub(crate) fn choose(
             beta: in_range(given.beta, NEWMARK_BETA, BETAS, "BETA", &mut notes),
             gamma: in_range(given.gamma, NEWMARK_GAMMA, GAMMAS, "GAMMA", &mut notes),
         },
-        _ => match given.formulation {
-            None if integrator.is_none() => Formulation::Si2,
-            None | Some(IndexReduction::I3) => Formulation::I3,
-            Some(IndexReduction::Si2) => Formulation::Si2,
-            Some(IndexReduction::Si1) => {
-                notes.push("SI1 is not available: SI2 is used".to_owned());
-                Formulation::Si2
+        IntegratorMethod::Abam => Formulation::Adams,
+        IntegratorMethod::Gstiff | IntegratorMethod::Wstiff | IntegratorMethod::Hastiff => {
+            match index {
+                None if integrator.is_none() => Formulation::Si2,
+                None | Some(IndexReduction::I3) => Formulation::I3,
+                Some(IndexReduction::Si2) => Formulation::Si2,
+                Some(IndexReduction::Si1) => {
+                    notes.push("SI1 is not available: SI2 is used".to_owned());
+                    Formulation::Si2
+                }
             }
-        },
+        }
     };
-    let is_newmark = matches!(method, IntegratorMethod::Hht | IntegratorMethod::Newmark);
-    if !(is_newmark || method == IntegratorMethod::Gstiff) {
+    if matches!(method, IntegratorMethod::Wstiff | IntegratorMethod::Hastiff) {
         notes.push(format!(
             "{} is not available: backward differences of variable order (as GSTIFF) are used",
             method.keyword()
         ));
     }
-    if is_newmark
-        && matches!(
-            given.formulation,
-            Some(IndexReduction::Si1 | IndexReduction::Si2)
-        )
-    {
-        notes.push(format!(
-            "{} has position constraints only (I3)",
-            method.keyword()
-        ));
+    match formulation {
+        Formulation::I3 | Formulation::Si2 => {}
+        Formulation::Adams => notes.extend(index.map(|_| {
+            "I3, SI2 and SI1 are not of ABAM, which solves accelerations and brings every step back \
+             onto the constraints"
+                .to_owned()
+        })),
+        Formulation::Hht { .. } | Formulation::Newmark { .. } => {
+            if matches!(index, Some(IndexReduction::Si1 | IndexReduction::Si2)) {
+                notes.push(format!(
+                    "{} has position constraints only (I3)",
+                    method.keyword()
+                ));
+            }
+        }
     }
-    let default_error = match method {
-        _ if integrator.is_none() => OWN_ERROR,
-        IntegratorMethod::Hht | IntegratorMethod::Newmark => 1e-5,
-        _ => 1e-3,
-    };
-    let highest_order = given.kmax.unwrap_or(6).clamp(1, HIGHEST_ORDER);
-    if let Some(kmax) = given
-        .kmax
-        .filter(|kmax| *kmax > HIGHEST_ORDER && !is_newmark)
+    let of_another = [
+        ("ALPHA", given.alpha, IntegratorMethod::Hht),
+        ("BETA", given.beta, IntegratorMethod::Newmark),
+        ("GAMMA", given.gamma, IntegratorMethod::Newmark),
+    ];
+    for (name, _, of) in of_another
+        .into_iter()
+        .filter(|(_, value, of)| value.is_some() && *of != method)
     {
-        notes.push(format!("KMAX={kmax}: the highest order is {HIGHEST_ORDER}"));
+        notes.push(format!("{name} is of {} only", of.keyword()));
     }
     let longest_step = given.hmax.unwrap_or(output_step);
     let longest_step = kinematics
         .and_then(|kinematics| kinematics.hmax)
         .map_or(longest_step, |hmax| hmax.min(longest_step));
-    notes.extend(not_honoured(
-        "INTEGRATOR",
-        &[
-            ("HRATIO", given.hratio.is_some()),
-            ("FIXIT", given.fixit.is_some()),
-            ("PATTERN", given.pattern.is_some()),
-            ("CORRECTOR", given.corrector.is_some()),
-            ("INTERPOLATE", given.interpolate.is_some()),
-            ("ADAPTIVITY", given.adaptivity.is_some()),
-            (
-                "ALPHA",
-                given.alpha.is_some() && method != IntegratorMethod::Hht,
-            ),
-            (
-                "BETA",
-                given.beta.is_some() && method != IntegratorMethod::Newmark,
-            ),
-            (
-                "GAMMA",
-                given.gamma.is_some() && method != IntegratorMethod::Newmark,
-            ),
-        ],
-    ));
-    let settings = Settings {
+    let mut settings = Settings {
         formulation,
-        error: error.or(given.error).unwrap_or(default_error),
-        highest_order: highest_order as usize,
+        error,
+        highest_order: highest_order(given.kmax, formulation, &mut notes),
         longest_step,
         // Adams' 1e-6 HMAX would keep long output steps from resolving a stick.
         shortest_step: given
             .hmin
             .unwrap_or((1e-6 * longest_step).min(SHORTEST * second)),
         first_step: given.hinit,
-        newton_iterations: given.maxit.unwrap_or(10) as usize,
+        corrector: corrector(given, formulation, &mut notes),
+        interpolates: given.interpolate.unwrap_or(true),
     };
+    if let Some(iterations) = settings.corrector.fixed {
+        let size = output_step / given.hratio.unwrap_or(1.0).round().max(1.0);
+        notes.push(format!(
+            "FIXIT: steps of {size:e} with {iterations} iterations each; neither ERROR nor \
+             convergence is tested"
+        ));
+        settings.longest_step = size;
+        settings.shortest_step = size;
+        settings.first_step = Some(size);
+        settings.interpolates = false;
+    } else if given.hratio.is_some() {
+        notes.push(
+            "HRATIO, the number of steps of an output step, is of steps of fixed length (FIXIT) only"
+                .to_owned(),
+        );
+    }
     Choice { settings, notes }
+}
+
+/// KMAX: six of Adams is the most that backward differentiation has, five, and twelve that of the
+/// formulas of Adams and Moulton.
+fn highest_order(kmax: Option<u32>, formulation: Formulation, notes: &mut Vec<String>) -> usize {
+    let most = match formulation {
+        Formulation::I3 | Formulation::Si2 => 5,
+        Formulation::Adams => 12,
+        // They have but one.
+        Formulation::Hht { .. } | Formulation::Newmark { .. } => return 2,
+    };
+    let kmax = kmax.map(|kmax| kmax as usize);
+    if let Some(kmax) = kmax.filter(|kmax| *kmax > most) {
+        notes.push(format!("KMAX={kmax}: the highest order is {most}"));
+    }
+    kmax.unwrap_or(most).clamp(1, most)
+}
+
+/// MAXIT, FIXIT, PATTERN, CORRECTOR and ADAPTIVITY.
+fn corrector(
+    given: &Integrator,
+    formulation: Formulation,
+    notes: &mut Vec<String>,
+) -> mechanics::Corrector {
+    let count = |count: Option<u32>| count.map(|count| count as usize);
+    if given.adaptivity.is_some() && !matches!(formulation, Formulation::I3 | Formulation::Si2) {
+        notes.push("ADAPTIVITY is of backward differentiation (GSTIFF) only".to_owned());
+    }
+    let pattern = given.pattern.as_deref();
+    if let Some(pattern) = pattern.filter(|pattern| pattern.len() > Pattern::LONGEST) {
+        notes.push(format!(
+            "PATTERN of {} iterations: at most {} are read, and it is left out",
+            pattern.len(),
+            Pattern::LONGEST
+        ));
+    }
+    mechanics::Corrector {
+        iterations: count(given.maxit),
+        fixed: count(given.fixit),
+        pattern: pattern.and_then(Pattern::new),
+        tests_all: given.corrector == Some(Corrector::Original),
+        adaptivity: given.adaptivity.unwrap_or(0.0),
+    }
 }
 
 /// A coefficient of the integrator, brought into its range with a note where it is outside.
@@ -200,183 +258,165 @@ pub(crate) fn equilibrium(given: Option<&Equilibrium>) -> (EquilibriumSettings, 
     (settings, notes)
 }
 
-/// End of a simulation and the time between its outputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TimeSpan {
-    pub(crate) end: f64,
-    /// Time between two outputs (the last interval may be shorter).
-    pub(crate) step: f64,
-    /// Number of outputs after the start.
-    count: usize,
-    /// Whether the SIMULATE says how many outputs it wants.
-    pub(crate) is_given: bool,
-}
-
-/// Why a SIMULATE cannot be carried out at a time.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub(crate) enum SpanError {
-    /// Its end is over.
-    #[error("END = {end} is not after the time reached so far, {start}")]
-    Past { end: f64, start: f64 },
-    /// So many outputs.
-    #[error("{0:.3e} outputs are too many: at most {MOST_OUTPUTS:e} are written")]
-    Outputs(f64),
-}
-
-impl SpanError {
-    /// The code of its message.
-    pub(crate) const fn code(self) -> Code {
-        match self {
-            Self::Past { .. } => Code::OutOfRange,
-            Self::Outputs(_) => Code::InvalidValue,
-        }
-    }
-
-    /// What to write instead.
-    pub(crate) const fn help(self) -> &'static str {
-        match self {
-            Self::Past { .. } => "END is a time; DURATION is the length of a simulation",
-            Self::Outputs(_) => "write a longer DTOUT",
-        }
-    }
-}
-
-/// The time span of a SIMULATE that starts at `start`; `None` for one that takes no time.
-///
-/// # Errors
-/// What is wrong with it.
-pub(crate) fn span(simulate: &Simulate, start: f64) -> Result<Option<TimeSpan>, SpanError> {
-    let end = match (simulate.end, simulate.duration) {
-        (Some(end), _) => end,
-        (None, Some(duration)) => start + duration,
-        (None, None) => return Ok(None),
-    };
-    if !(end > start) {
-        return Err(SpanError::Past { end, start });
-    }
-    let (step, is_given) = match (simulate.steps, simulate.dtout) {
-        (_, Some(dtout)) => (dtout.min(end - start), true),
-        (Some(steps), None) => ((end - start) / f64::from(steps), true),
-        (None, None) => ((end - start) / f64::from(DEFAULT_STEPS), false),
-    };
-    // An interval that is whole but for rounding is not split.
-    let count = ((end - start) / step - 1e-9).ceil().max(1.0);
-    if !(count <= MOST_OUTPUTS) {
-        return Err(SpanError::Outputs(count));
-    }
-    Ok(Some(TimeSpan {
-        end,
-        step,
-        count: count as usize,
-        is_given,
-    }))
-}
-
-impl TimeSpan {
-    /// Output times `start + k·step`, rising, the last exactly the end; those after the first
-    /// `taken`.
-    pub(crate) fn outputs(&self, start: f64, taken: usize) -> impl Iterator<Item = f64> + use<> {
-        let (step, end, count) = (self.step, self.end, self.count);
-        let time = move |k| {
-            if k < count {
-                start + k as f64 * step
-            } else {
-                end
-            }
-        };
-        (taken + 1..=count).map(time)
-    }
-
-    /// What to tell about it.
-    pub(crate) fn note(&self) -> Option<String> {
-        let note = || format!("neither STEPS nor DTOUT is given: STEPS={DEFAULT_STEPS} is used");
-        (!self.is_given).then(note)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dataset::SimulationKind;
+    use crate::method::Method;
 
-    fn simulate(end: f64, steps: Option<u32>, dtout: Option<f64>) -> Simulate {
-        Simulate {
-            kind: SimulationKind::Dynamic,
-            end: Some(end),
-            duration: None,
-            steps,
-            dtout,
-        }
+    /// Settings for outputs every hundredth of a second.
+    fn chosen(integrator: Option<&Integrator>, options: RunOptions) -> Choice {
+        choose(integrator, None, 0.01, &options, 1.0)
     }
 
-    #[test]
-    fn the_last_output_is_the_end() {
-        let times = |simulate: &Simulate, start| {
-            span(simulate, start)
-                .map(|span| span.map_or(Vec::new(), |span| span.outputs(start, 0).collect()))
-        };
-        assert_eq!(
-            times(&simulate(0.25, None, Some(0.1)), 0.0).unwrap(),
-            [0.1, 0.2, 0.25]
-        );
-        assert_eq!(
-            times(&simulate(0.3, None, Some(0.1)), 0.0).unwrap(),
-            [0.1, 0.2, 0.3]
-        );
-        assert_eq!(
-            times(&simulate(2.0, Some(4), None), 1.0).unwrap(),
-            [1.25, 1.5, 1.75, 2.0]
-        );
-        assert!(times(&simulate(1.0, Some(4), None), 1.0).is_err());
-        assert!(times(&simulate(1.0, None, Some(1e-12)), 0.0).is_err());
-        let lasting = Simulate {
-            end: None,
-            duration: Some(1.0),
-            ..simulate(0.0, Some(2), None)
-        };
-        assert_eq!(times(&lasting, 5.0).unwrap(), [5.5, 6.0]);
+    fn of(integrator: &Integrator) -> Choice {
+        chosen(Some(integrator), RunOptions::default())
     }
 
     #[test]
     fn settings_follow_the_statement_and_its_defaults() {
-        let own = choose(None, None, 0.01, None, 1.0);
+        let own = chosen(None, RunOptions::default());
         assert_eq!(own.settings.formulation, Formulation::Si2);
-        assert_eq!(own.settings.error, 1e-6);
-        assert_eq!(own.settings.longest_step, 0.01);
+        assert_eq!(
+            (own.settings.error, own.settings.longest_step),
+            (1e-6, 0.01)
+        );
+        assert_eq!(own.settings.corrector, mechanics::Corrector::default());
+        assert!(own.settings.interpolates);
         assert_eq!(own.notes.len(), 1);
         let given = Integrator {
             method: Some(IntegratorMethod::Hht),
             kmax: Some(6),
             hmin: Some(1e-9),
-            pattern: Some(vec![true]),
+            hmax: Some(0.02),
+            hinit: Some(1e-4),
+            maxit: Some(7),
+            pattern: Some(vec![true, false]),
+            corrector: Some(Corrector::Original),
+            interpolate: Some(false),
             ..Integrator::default()
         };
-        let chosen = choose(Some(&given), None, 0.01, None, 1.0);
+        let Choice { settings, notes } = of(&given);
+        assert_eq!(settings.formulation, Formulation::Hht { alpha: -0.3 });
+        assert_eq!(settings.error, 1e-5);
         assert_eq!(
-            chosen.settings.formulation,
-            Formulation::Hht { alpha: -0.3 }
+            (settings.shortest_step, settings.longest_step),
+            (1e-9, 0.02)
         );
-        assert_eq!(chosen.settings.error, 1e-5);
-        assert_eq!(chosen.settings.shortest_step, 1e-9);
-        assert_eq!(chosen.notes.len(), 1);
-        let newmark = Integrator {
+        assert_eq!(settings.first_step, Some(1e-4));
+        let corrector = settings.corrector;
+        assert_eq!(corrector.iterations, Some(7));
+        assert_eq!(corrector.pattern, Pattern::new(&[true, false]));
+        assert!(corrector.tests_all && !settings.interpolates);
+        assert_eq!(notes, Vec::<String>::new());
+        let newmark = of(&Integrator {
             method: Some(IntegratorMethod::Newmark),
             gamma: Some(0.6),
             ..Integrator::default()
-        };
-        let newmark = choose(Some(&newmark), None, 0.01, None, 1.0);
+        });
         let formulation = Formulation::Newmark {
             beta: 0.36,
             gamma: 0.6,
         };
         assert_eq!(newmark.settings.formulation, formulation);
         assert_eq!(newmark.notes, Vec::<String>::new());
-        assert_eq!(
-            choose(Some(&given), None, 0.01, Some(1e-4), 1.0)
-                .settings
-                .error,
-            1e-4
-        );
+        let finer = RunOptions {
+            error: Some(1e-4),
+            ..RunOptions::default()
+        };
+        assert_eq!(chosen(Some(&given), finer).settings.error, 1e-4);
+    }
+
+    #[test]
+    fn another_method_leaves_the_error_as_it_is() {
+        let of_method = |integrator: Option<&Integrator>, method| {
+            let options = RunOptions {
+                method: Some(method),
+                ..RunOptions::default()
+            };
+            chosen(integrator, options).settings
+        };
+        let stiff = Integrator {
+            formulation: Some(IndexReduction::Si2),
+            ..Integrator::default()
+        };
+        for (integrator, error) in [(None, 1e-6), (Some(&stiff), 1e-3)] {
+            let formulations = [
+                Formulation::Si2,
+                Formulation::I3,
+                Formulation::Hht { alpha: -0.3 },
+                Formulation::Newmark {
+                    beta: 0.36,
+                    gamma: 0.7,
+                },
+                Formulation::Adams,
+            ];
+            for (method, formulation) in Method::ALL.into_iter().zip(formulations) {
+                let settings = of_method(integrator, method);
+                assert_eq!((settings.formulation, settings.error), (formulation, error));
+            }
+        }
+        let abam = Integrator {
+            method: Some(IntegratorMethod::Abam),
+            ..Integrator::default()
+        };
+        let abam = of(&abam);
+        assert_eq!(abam.settings.formulation, Formulation::Adams);
+        assert_eq!((abam.settings.highest_order, abam.notes.len()), (12, 0));
+    }
+
+    #[test]
+    fn what_is_not_as_it_says_is_told() {
+        let notes = |integrator: Integrator| of(&integrator).notes.join("; ");
+        let given = |method| Integrator {
+            method: Some(method),
+            ..Integrator::default()
+        };
+        use IntegratorMethod as M;
+        let told = notes(given(M::Wstiff));
+        assert!(told.starts_with("WSTIFF is not available"), "{told}");
+        let told = notes(Integrator {
+            formulation: Some(IndexReduction::Si1),
+            kmax: Some(6),
+            hratio: Some(2.0),
+            alpha: Some(-0.1),
+            ..given(M::Gstiff)
+        });
+        for what in ["SI1", "KMAX=6", "HRATIO", "ALPHA is of HHT only"] {
+            assert!(told.contains(what), "{told}");
+        }
+        let told = notes(Integrator {
+            formulation: Some(IndexReduction::Si2),
+            adaptivity: Some(1e-8),
+            beta: Some(0.3),
+            ..given(M::Abam)
+        });
+        for what in ["not of ABAM", "ADAPTIVITY", "BETA is of NEWMARK only"] {
+            assert!(told.contains(what), "{told}");
+        }
+        let told = notes(Integrator {
+            pattern: Some(vec![true; 65]),
+            alpha: Some(-0.5),
+            formulation: Some(IndexReduction::Si2),
+            ..given(M::Hht)
+        });
+        for what in ["PATTERN of 65", "ALPHA=-0.5", "position constraints only"] {
+            assert!(told.contains(what), "{told}");
+        }
+    }
+
+    #[test]
+    fn fixed_steps_divide_output_steps() {
+        let fixed = Integrator {
+            fixit: Some(3),
+            hratio: Some(4.0),
+            hmax: Some(1e-5),
+            ..Integrator::default()
+        };
+        let Choice { settings, notes } = of(&fixed);
+        let steps = [settings.shortest_step, settings.longest_step];
+        assert_eq!((steps, settings.first_step), ([0.0025; 2], Some(0.0025)));
+        assert_eq!(settings.corrector.fixed, Some(3));
+        assert!(notes[0].contains("neither ERROR"), "{notes:?}");
     }
 
     #[test]

@@ -9,7 +9,8 @@ use crate::recorder::Observe;
 use crate::runner::{Halt, Recorded, Runner};
 use crate::sensors::{Effect, Keeping, Sensing, Sensors};
 use crate::session::{Outcome, Progress, Watch};
-use crate::settings::{self, TimeSpan};
+use crate::settings;
+use crate::time_span::TimeSpan;
 
 impl Runner<'_> {
     /// Finds the equilibrium of the present time, or with a time span those at its start and at

@@ -10,7 +10,7 @@ use crate::lower::{Measures, Mode, lower};
 use crate::message::Message;
 use crate::project::{Project, SourcedCommand};
 use crate::refusal;
-use crate::settings::{self, SpanError};
+use crate::time_span::{self, SpanError};
 
 /// Looks through the model as given and all commands; returns the measures of every model on the way
 /// and what is to be said.
@@ -179,7 +179,7 @@ impl<'a> Survey<'a> {
 
     fn simulate(&mut self, simulate: &Simulate, step: &SourcedCommand) {
         let time = self.now.time;
-        match settings::span(simulate, time) {
+        match time_span::span(simulate, time) {
             Ok(span) => self.now.time = span.map_or(time, |span| span.end),
             Err(error) => {
                 let message = self.foreseen(error, step);

@@ -16,6 +16,8 @@ pub enum IntegratorMethod {
     Hht,
     /// NEWMARK.
     Newmark,
+    /// ABAM: Adams and Moulton.
+    Abam,
 }
 
 impl IntegratorMethod {
@@ -28,6 +30,7 @@ impl IntegratorMethod {
             Self::Hastiff => "HASTIFF",
             Self::Hht => "HHT",
             Self::Newmark => "NEWMARK",
+            Self::Abam => "ABAM",
         }
     }
 }
@@ -67,21 +70,21 @@ pub struct Integrator {
     pub hmax: Option<f64>,
     /// HMIN: smallest step, time.
     pub hmin: Option<f64>,
-    /// HRATIO.
+    /// HRATIO: steps of an output step where FIXIT is given.
     pub hratio: Option<f64>,
     /// KMAX: highest order.
     pub kmax: Option<u32>,
     /// MAXIT: most iterations of a step.
     pub maxit: Option<u32>,
-    /// FIXIT.
+    /// FIXIT: so many iterations of every step, steps of fixed length.
     pub fixit: Option<u32>,
     /// PATTERN: at which iterations the Jacobian is computed anew.
     pub pattern: Option<Vec<bool>>,
-    /// CORRECTOR.
+    /// CORRECTOR: what must have converged.
     pub corrector: Option<Corrector>,
     /// INTERPOLATE: output by interpolation.
     pub interpolate: Option<bool>,
-    /// ADAPTIVITY.
+    /// ADAPTIVITY: divided by the step, what is added to the tolerance of the corrector.
     pub adaptivity: Option<f64>,
     /// ALPHA of HHT.
     pub alpha: Option<f64>,

@@ -18,6 +18,7 @@ pub(crate) const INTEGRATOR_KEYWORDS: &[Keyword] = &[
     keyword("HASTIFF", Kind::Flag),
     keyword("HHT", Kind::Flag),
     keyword("NEWMARK", Kind::Flag),
+    keyword("ABAM", Kind::Flag),
     keyword("I3", Kind::Flag),
     keyword("SI2", Kind::Flag),
     keyword("SI1", Kind::Flag),
@@ -33,7 +34,6 @@ pub(crate) const INTEGRATOR_KEYWORDS: &[Keyword] = &[
     abbreviated("CORRECTOR", "C", Kind::Word),
     abbreviated("INTERPOLATE", "IN", Kind::Word),
     keyword("ADAPTIVITY", Kind::Real),
-    keyword("ABAM", Kind::Ignored(STIFF)),
     keyword("CONSTANT_BDF", Kind::Ignored(STIFF)),
     keyword("CPBDF", Kind::Ignored(STIFF)),
     keyword("DSTIFF", Kind::Ignored(STIFF)),
@@ -61,6 +61,7 @@ pub(crate) fn integrator(reading: &mut Reading) -> Integrator {
         IntegratorMethod::Hastiff,
         IntegratorMethod::Hht,
         IntegratorMethod::Newmark,
+        IntegratorMethod::Abam,
     ]
     .map(|method| (method.keyword(), method));
     let formulations = [

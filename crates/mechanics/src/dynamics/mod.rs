@@ -29,6 +29,7 @@
 //! is dropped, so that the norm holds exactly: `ω = −(2/γ) vec(q̂ q*)`. Solved for `q` at given `ω`
 //! it is `q = (s, γω/2) q̂ / |q̂|²` with `s² = |q̂|² − |γω/2|²`.
 
+mod corrector;
 mod formulation;
 mod local_error;
 mod newton;
@@ -48,6 +49,7 @@ use crate::joint_friction::Memory;
 use crate::model::Model;
 use crate::state::State;
 use crate::system::System;
+pub use corrector::{Corrector, Pattern};
 pub use formulation::Formulation;
 pub(crate) use formulation::Index;
 use quadrature::Quadrature;
@@ -84,6 +86,8 @@ enum MatrixUse {
     Kept,
     /// New at the first iteration.
     Renewed,
+    /// New at the iterations that are asked for, and at the first.
+    Patterned { pattern: Pattern, first: bool },
     /// New at every iteration.
     RenewedAlways,
 }
@@ -110,7 +114,7 @@ pub(crate) struct Dynamics {
     index3_left: usize,
     /// Error that a step may make, relative to the scales.
     pub(crate) error: f64,
-    pub(crate) newton_iterations: usize,
+    pub(crate) corrector: Corrector,
     /// Length of the present step,
     step_size: f64,
     /// of the shortest and the longest one.
@@ -175,7 +179,7 @@ impl Dynamics {
             present: Index::StabilisedTwo,
             index3_left: 0,
             error: 1e-6,
-            newton_iterations: 4,
+            corrector: Corrector::default(),
             step_size: 0.0,
             steps: [0.0, f64::INFINITY],
             scales,

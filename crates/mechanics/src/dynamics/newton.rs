@@ -18,8 +18,6 @@ const NEWMARK_NEWTON_TOLERANCE: f64 = 2e-5;
 const MARGIN: f64 = 10.0;
 /// The same for the formulas of Adams, whose high differences of slopes magnify what is left.
 const ADAMS_NEWTON_TOLERANCE: f64 = 0.02;
-/// Iterations with a matrix each, at least.
-const FULL_ITERATIONS: usize = 20;
 /// Corrections that may grow in such an iteration.
 const GROWTHS: usize = 5;
 
@@ -107,7 +105,7 @@ impl Dynamics {
     /// positions: an error test that looks closer asks for shorter steps, which leave more.
     pub(super) fn left_of_velocities(&self, step: &bdf::Step<'_>) -> f64 {
         let tolerance = match self.formulation {
-            Formulation::I3 => INDEX3_NEWTON_TOLERANCE * INDEX3_SHARE,
+            Formulation::I3 => self.loosened(INDEX3_NEWTON_TOLERANCE, step.size) * INDEX3_SHARE,
             Formulation::Newmark { .. } => NEWMARK_NEWTON_TOLERANCE,
             Formulation::Si2 | Formulation::Adams | Formulation::Hht { .. } => 0.0,
         };
@@ -121,7 +119,8 @@ impl Dynamics {
         match self.formulation.index() {
             Index::One | Index::StabilisedTwo => 0.0,
             Index::Three => {
-                let left = MARGIN * INDEX3_NEWTON_TOLERANCE * self.tolerance();
+                let tolerance = self.loosened(INDEX3_NEWTON_TOLERANCE, step.size);
+                let left = MARGIN * tolerance * self.tolerance();
                 left / (step.size * self.scales.rate).powi(2)
             }
         }
@@ -138,10 +137,8 @@ impl Dynamics {
             Index::Three => Rows::Position,
         };
         let (mut first, mut last, mut growths) = (0.0, 0.0, 0);
-        let iterations = match usage {
-            MatrixUse::RenewedAlways => self.newton_iterations.max(FULL_ITERATIONS),
-            _ => self.newton_iterations,
-        };
+        let is_full = usage == MatrixUse::RenewedAlways;
+        let iterations = self.corrector.most_iterations(is_full);
         let tolerance = match self.present {
             Index::One => ADAMS_NEWTON_TOLERANCE,
             Index::StabilisedTwo => NEWTON_TOLERANCE,
@@ -150,11 +147,14 @@ impl Dynamics {
                 Family::BackwardDifferences | Family::Adams => INDEX3_NEWTON_TOLERANCE,
             },
         };
-        let tolerance = tolerance * self.switching.newton_part();
+        let tolerance = self.loosened(tolerance, step.size) * self.switching.newton_part();
         for iteration in 0..iterations {
             let renew = match usage {
                 MatrixUse::Kept => false,
                 MatrixUse::Renewed => iteration == 0,
+                MatrixUse::Patterned { pattern, first } => {
+                    pattern.renews(iteration) || (first && iteration == 0)
+                }
                 MatrixUse::RenewedAlways => true,
             };
             self.system.evaluate(&self.state, renew);
@@ -173,6 +173,11 @@ impl Dynamics {
             for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
                 *impulse += change;
             }
+            let unwatched = if self.corrector.tests_all {
+                self.unwatched_correction(gamma)
+            } else {
+                0.0
+            };
             match self.present {
                 Index::One => {
                     for (u, change) in self.state.velocities_mut().iter_mut().zip(&self.right) {
@@ -200,9 +205,16 @@ impl Dynamics {
             for (state, change) in states.zip(&self.right[moving..n]) {
                 *state += change;
             }
-            let norm = self.correction_norm(step.position_gamma);
+            let watched = self.correction_norm(step.position_gamma);
+            let norm = watched.max(tolerance * unwatched);
             if !norm.is_finite() {
                 break;
+            }
+            if let Some(fixed) = self.corrector.fixed {
+                if iteration + 1 == fixed {
+                    return Ok(());
+                }
+                continue;
             }
             if norm == 0.0 {
                 return Ok(());

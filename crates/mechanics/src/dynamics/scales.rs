@@ -7,7 +7,7 @@ use crate::system::{System, Units};
 
 /// Magnitude below which a differential state counts as small, in its own unit, unless its function
 /// shows that it stays smaller,
-const SMALLEST_STATE: f64 = 1e-6;
+pub(super) const SMALLEST_STATE: f64 = 1e-6;
 /// then this part of what it may become.
 const SMALL: f64 = 1e-3;
 /// Times at which the function of a state is looked at.

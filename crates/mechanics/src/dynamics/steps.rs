@@ -25,10 +25,18 @@ impl bdf::System for Dynamics {
         let stale = self
             .factored
             .is_none_or(|gamma| (step.gamma / gamma - 1.0).abs() > GAMMA_RANGE);
-        let mut usage = if stale || self.rate > SLOW_RATE || self.switching.slides() {
-            MatrixUse::Renewed
-        } else {
-            MatrixUse::Kept
+        // Iterations whose number is fixed do not tell how fast they converge.
+        let unfit = stale
+            || self.rate > SLOW_RATE
+            || self.switching.slides()
+            || self.corrector.fixed.is_some();
+        let mut usage = match self.corrector.pattern {
+            Some(pattern) => MatrixUse::Patterned {
+                pattern,
+                first: unfit,
+            },
+            None if unfit => MatrixUse::Renewed,
+            None => MatrixUse::Kept,
         };
         self.present = if self.index3_left > 0 {
             Index::Three
@@ -42,7 +50,10 @@ impl bdf::System for Dynamics {
             };
             usage = match (usage, &failure) {
                 (MatrixUse::Kept, _) => MatrixUse::Renewed,
-                (MatrixUse::Renewed, Failure::NotConverged { .. }) => MatrixUse::RenewedAlways,
+                (
+                    MatrixUse::Renewed | MatrixUse::Patterned { .. },
+                    Failure::NotConverged { .. },
+                ) => MatrixUse::RenewedAlways,
                 // Where the mechanism passes a position at which constraints depend on others,
                 // velocity constraints are nearly singular, positions alone are not.
                 (_, Failure::NotConverged { .. } | Failure::Singular(_))

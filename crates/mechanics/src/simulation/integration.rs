@@ -110,7 +110,7 @@ impl Simulation {
         self.system.observe_loads(&self.multipliers);
         dynamics.start(&self.system, settings.formulation, self.scales);
         dynamics.error = settings.error;
-        dynamics.newton_iterations = settings.newton_iterations;
+        dynamics.corrector = settings.corrector;
         dynamics.steps = [settings.shortest_step, settings.longest_step];
         dynamics.observe(&self.state, end);
         dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
@@ -148,7 +148,12 @@ impl Simulation {
         let mut blocked = None;
         while bdf.time() < end && ending == Ending::Completed {
             let start = bdf.time();
-            let advanced = bdf.advance(dynamics, end);
+            let next = outputs.peek().filter(|output| **output > start);
+            let stop = match next {
+                Some(output) if !settings.interpolates => output.min(end),
+                _ => end,
+            };
+            let advanced = bdf.advance(dynamics, stop);
             self.scales = dynamics.scales;
             self.statistics = {
                 let rough = self.statistics.rough_outputs;
@@ -508,6 +513,7 @@ fn limits(settings: &Settings) -> bdf::Settings {
         highest_order: settings.highest_order,
         longest_step: settings.longest_step,
         shortest_step: settings.shortest_step,
+        untested: settings.corrector.fixed.is_some(),
     }
 }
 

@@ -3,7 +3,7 @@
 use numerics::bdf;
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::{Formulation, Work};
+use crate::dynamics::{Corrector, Formulation, Work};
 use crate::model::Label;
 use crate::snapshot::Snapshot;
 
@@ -15,16 +15,18 @@ pub struct Settings {
     /// Error tolerance per step: relative to the model's length for positions, radians for
     /// rotations, and with SI2 relative to the largest velocities for velocities.
     pub error: f64,
-    /// Highest order of the formulas, 1 to 5.
+    /// Highest order of the formulas: 1 to 5 for backward differentiation, to 12 for those of Adams.
     pub highest_order: usize,
     /// Longest step.
     pub longest_step: f64,
-    /// Shortest step before the integration is given up.
+    /// Shortest step before the integration is given up; steps to outputs and jumps may be shorter.
     pub shortest_step: f64,
     /// Step to start with, where given.
     pub first_step: Option<f64>,
-    /// Newton iterations per step before the step is tried again with a new matrix or shorter.
-    pub newton_iterations: usize,
+    /// How Newton's iteration on a step goes.
+    pub corrector: Corrector,
+    /// Whether outputs within a step are interpolated; where they are not, steps end at them.
+    pub interpolates: bool,
 }
 
 /// What the integrator did so far.

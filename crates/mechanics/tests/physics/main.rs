@@ -10,6 +10,7 @@ mod convergence;
 mod friction_cases;
 mod frictionless;
 mod instants;
+mod integrator_arguments;
 mod invariance;
 mod linearization;
 mod oracle;

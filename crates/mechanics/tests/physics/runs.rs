@@ -2,8 +2,8 @@
 
 use mechanics::model::Model;
 use mechanics::{
-    Ending, Formulation, Observer, Settings, Simulation, Snapshot, StepReport, gravity_energy,
-    kinetic_energy,
+    Corrector, Ending, Formulation, Observer, Settings, Simulation, Snapshot, StepReport,
+    gravity_energy, kinetic_energy,
 };
 use nalgebra::Vector3;
 
@@ -16,7 +16,8 @@ pub(crate) fn settings(formulation: Formulation, error: f64, longest_step: f64) 
         longest_step,
         shortest_step: 1e-13,
         first_step: None,
-        newton_iterations: 6,
+        corrector: Corrector::default(),
+        interpolates: true,
     }
 }
 

@@ -21,8 +21,12 @@ pub struct Settings {
     pub highest_order: usize,
     /// Longest step.
     pub longest_step: f64,
-    /// Shortest step before the integrator gives up (the last step to a stop time may be shorter).
+    /// Shortest step, with which the integrator gives up (steps that end at a stop time, or where the
+    /// system wants them to, may be shorter).
     pub shortest_step: f64,
+    /// Whether errors choose the order alone: no step fails for its error. With the shortest step as
+    /// long as the longest all steps have this length.
+    pub untested: bool,
 }
 
 /// What happened since the integrator was made.
@@ -79,6 +83,7 @@ pub enum Error<F> {
 ///     highest_order: 5,
 ///     longest_step: 1.0,
 ///     shortest_step: 1e-12,
+///     untested: false,
 /// };
 /// let mut bdf = Bdf::new(1, settings);
 /// bdf.start(&Decay, 0.0, &[1.0], &[-1.0], 1e-4);
@@ -282,7 +287,8 @@ impl Bdf {
         // Where the system wants the step to end.
         let mut end = None;
         loop {
-            let wanted = self.size.min(self.settings.longest_step);
+            let shortest = self.settings.shortest_step;
+            let wanted = self.size.max(shortest).min(self.settings.longest_step);
             // Landing on the stop must not leave a sliver of a step for the next one.
             let (size, time) = if let Some(end) = end.take() {
                 (end - start, end)
@@ -314,7 +320,7 @@ impl Bdf {
                 if failures > 2 {
                     self.lower_order();
                 }
-                if self.size < self.settings.shortest_step {
+                if size <= shortest {
                     self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Failed { time: start, cause });
                 }
@@ -322,7 +328,7 @@ impl Bdf {
             }
             self.take_error(system, formula, time);
             let here = self.estimate(system, predictor, predictor, time, size);
-            if !(here.error <= 1.0) {
+            if !(here.error <= 1.0 || self.settings.untested) {
                 rejections += 1;
                 self.statistics.rejections += 1;
                 self.starting = false;
@@ -335,7 +341,7 @@ impl Bdf {
                     0.1
                 };
                 self.size = size * shrink.clamp(0.1, 0.9);
-                if self.size < self.settings.shortest_step {
+                if size <= shortest {
                     self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Inaccurate { time: start, size });
                 }

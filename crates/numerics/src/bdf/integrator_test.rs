@@ -27,6 +27,7 @@ fn run(tolerance: f64, family: Family, highest_order: usize) -> (f64, Statistics
         highest_order,
         longest_step: 1.0,
         shortest_step: 1e-14,
+        untested: false,
     };
     let mut bdf = Bdf::new(2, settings);
     bdf.start(
@@ -121,6 +122,7 @@ fn newmark_is_of_second_order_and_its_error_estimate_is_right() {
             highest_order: 2,
             longest_step: 1.0,
             shortest_step: 1e-14,
+            untested: false,
         };
         let mut system = Newmarked { tolerance };
         let mut integrator = Bdf::new(2, settings);
@@ -192,6 +194,7 @@ fn a_step_ends_where_the_system_wants_it_to() {
         highest_order: 5,
         longest_step: 1.0,
         shortest_step: 1e-14,
+        untested: false,
     };
     let mut system = Turning {
         slope: 1.0,
@@ -236,6 +239,7 @@ fn a_failing_system_ends_with_its_last_good_state() {
         highest_order: 5,
         longest_step: 0.1,
         shortest_step: 1e-9,
+        untested: false,
     };
     let mut bdf = Bdf::new(1, settings);
     bdf.start(&Wall, 0.0, &[0.0], &[1.0], 1e-3);

@@ -22,6 +22,7 @@ mod explain;
 mod failing;
 mod functions;
 mod instants;
+mod integrators;
 mod invariance;
 mod jams;
 mod jumps;

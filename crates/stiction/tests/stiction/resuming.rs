@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use results::ResFile;
 use stiction::{
-    CheckpointError, Outcome, Progress, Project, ResumeError, RunOptions, Session, Watch,
+    CheckpointError, Method, Outcome, Progress, Project, ResumeError, RunOptions, Session, Watch,
 };
 
 use crate::saving::MODEL;
@@ -24,12 +24,14 @@ impl Watch for StopAfter {
 /// Checkpoints only where the run is interrupted, but for the first.
 const SELDOM: RunOptions = RunOptions {
     error: None,
+    method: None,
     checkpoint: Some(Duration::MAX),
     text_results: true,
 };
 /// Checkpoints after every step.
 const ALWAYS: RunOptions = RunOptions {
     error: None,
+    method: None,
     checkpoint: Some(Duration::ZERO),
     text_results: true,
 };
@@ -192,6 +194,20 @@ fn a_run_in_pieces_writes_the_bytes_of_one_at_one_go() {
 }
 
 #[test]
+fn every_family_of_formulas_goes_on_where_it_was() {
+    let commands =
+        "SIM/DYN, END=0.3, STEPS=30\nFRICTION/1, MU_STATIC=0.6\nSIM/DYN, END=0.4, STEPS=3\n";
+    for integrator in ["HHT", "NEWMARK", "ABAM"] {
+        let text = MODEL.replace(
+            "GSTIFF, SI2, ERROR=1E-6",
+            &format!("{integrator}, ERROR=1E-4"),
+        );
+        let resumed = check(&text, commands, &[7, 61]);
+        assert!(resumed > 3, "{integrator} {resumed}");
+    }
+}
+
+#[test]
 fn equilibria_go_on_where_they_were() {
     let resumed = check(BLOCK, EQUILIBRIA, &[1, 2, 3, 20]);
     assert!(resumed > 20, "{resumed}");
@@ -244,6 +260,12 @@ fn a_checkpoint_of_another_run_is_refused_with_what_differs() {
     assert_eq!(
         another(&first, finer),
         ["--error: not given then, 1e-4 now"]
+    );
+    let method = Some(Method::Adams);
+    let smooth = RunOptions { method, ..SELDOM };
+    assert_eq!(
+        another(&first, smooth),
+        ["--integrator: not given then, adams now"]
     );
 
     let path = folder.join("model.checkpoint");

@@ -10,7 +10,9 @@ mod dataset;
 mod oracle;
 
 use friction::parameters::{JointType, PARAMETERS, inputs_of};
-use mechanics::{EquilibriumSettings, Observer, Settings, Simulation, Snapshot, StepReport};
+use mechanics::{
+    Corrector, EquilibriumSettings, Observer, Settings, Simulation, Snapshot, StepReport,
+};
 use verification::coverage::{self, JOINTS};
 use verification::{Case, Claim, Coverage, Formulation, Section, check};
 
@@ -31,7 +33,8 @@ fn settings() -> Settings {
         longest_step: 2.5e-4,
         shortest_step: 1e-12,
         first_step: Some(1e-7),
-        newton_iterations: 6,
+        corrector: Corrector::default(),
+        interpolates: true,
     }
 }
 

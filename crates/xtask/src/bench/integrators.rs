@@ -1,6 +1,6 @@
 //! The integrators that are measured: the one place that lists them.
 
-use mechanics::{Formulation, Settings};
+use mechanics::{Corrector, Formulation, Settings};
 
 /// A choice of the INTEGRATOR statement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,8 @@ impl Integrator {
             longest_step,
             shortest_step: (1e-6 * longest_step).min(1e-9),
             first_step: None,
-            newton_iterations: 10,
+            corrector: Corrector::default(),
+            interpolates: true,
         }
     }
 }

@@ -214,7 +214,7 @@ ENVIRONMENT/NAME = OTHER, UNSET
 INTEGRATOR/ABAM, CORRECTOR = ORIG_CONSTANT, MAXERR = 1E-3, INTERPOLATE = ON
 ", |model| {
         let integrator = model.integrator.as_ref().unwrap();
-        assert_eq!(integrator.method, None);
+        assert_eq!(integrator.method, Some(IntegratorMethod::Abam));
         assert_eq!(integrator.corrector, Some(Corrector::Original));
         assert_eq!(integrator.interpolate, Some(true));
     }),
