@@ -81,6 +81,7 @@ pub(crate) enum Command {
   stiction run delta.acf
   stiction run pendulum.adm --end 2 --dtout 0.01 -o results
   stiction run delta.acf --set FRICTION/103.MU_STATIC=0.2 --force
+  stiction run delta.acf --check-accuracy
   stiction run delta.acf --checkpoint 60
   stiction run delta.acf --checkpoint 60 --resume",
     after_long_help = EXIT_CODES
@@ -118,6 +119,13 @@ pub(crate) struct RunArguments {
     /// docs/integrators.md tells more.
     #[arg(long, value_name = "METHOD", value_parser = method_parser())]
     pub(crate) integrator: Option<Method>,
+    /// Tell how accurate the run is, by a second run beside it with a tenth of ERROR
+    ///
+    /// ERROR bounds the error of each step; over a run errors add up, and some motions magnify them. The
+    /// results are those without it. With --checkpoint too, but not with --resume. docs/accuracy.md
+    /// explains what it says.
+    #[arg(long, conflicts_with = "resume")]
+    pub(crate) check_accuracy: bool,
     /// Change an argument before the run; may be repeated
     #[arg(long = "set", value_name = "FRICTION/103.MU_STATIC=0.2")]
     pub(crate) changes: Vec<String>,

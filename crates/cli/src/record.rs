@@ -71,6 +71,7 @@ fn options(arguments: &RunArguments) -> Value {
         "dtout": arguments.dtout,
         "error": arguments.error,
         "integrator": arguments.integrator.map(stiction::Method::name),
+        "check_accuracy": arguments.check_accuracy,
         "set": arguments.changes,
     })
 }

@@ -63,6 +63,7 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
         method: arguments.integrator,
         checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
         text_results: arguments.formats.contains(&ResultFormat::Res),
+        check_accuracy: arguments.check_accuracy,
     };
     let formats = arguments.formats.iter();
     let formats: Vec<_> = formats.filter_map(|format| format.of_tables()).collect();
@@ -196,10 +197,17 @@ fn tell(folder: &Path, report: &RunReport, arguments: &RunArguments) {
     }
     text += " run.json\n";
     if report.outcome == Outcome::Interrupted && arguments.checkpoint.is_some() {
-        text += "the same command with --resume goes on from here\n";
+        let without = match arguments.check_accuracy {
+            true => " in the place of --check-accuracy",
+            false => "",
+        };
+        text += &format!("the same command with --resume{without} goes on from here\n");
     }
     for warning in record::beside_the_outcome(report) {
         text += &warning.to_string();
+    }
+    if let Some(accuracy) = &report.accuracy {
+        text += &format!("\n{accuracy}");
     }
     for modes in &report.modes {
         text += &format!("\n{modes}");

@@ -440,6 +440,45 @@ fn warnings_are_allowed_and_denied_by_their_code() {
 }
 
 #[test]
+fn how_accurate_a_run_is_comes_with_it() {
+    let folder = folder("accuracy", &[("p.adm", PENDULUM)]);
+    let run = ["run", "p.adm", "--end", "1", "--dtout", "0.01"];
+    let checked =
+        |more: &[&str]| stiction(&folder, &[&run[..], &["--check-accuracy"], more].concat());
+    let record = |name: &str| json(&std::fs::read(folder.join(name).join("run.json")).unwrap());
+    let output = checked(&["--error", "1e-7", "-o", "near"]);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        said.contains("\naccurate to about ") && said.contains(" meter ("),
+        "{said}"
+    );
+    let accuracy = record("near")["accuracy"].clone();
+    assert_eq!(
+        (&accuracy["accurate"], &accuracy["outputs"]),
+        (&json(b"true"), &json(b"100"))
+    );
+    assert_eq!(accuracy["distance"]["body"], "PART/2");
+    assert_eq!(accuracy["elements"][0]["element"], "FRICTION/103");
+    // A method of first order is far off, which does not change how the program ends.
+    let newmark = PENDULUM.replace("END\n", "INTEGRATOR/NEWMARK, ERROR=1E-5\nEND\n");
+    std::fs::write(folder.join("p.adm"), newmark).unwrap();
+    let output = checked(&["-o", "far"]);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        said.contains("warning[inaccurate]: from time") && said.contains("PART/2"),
+        "{said}"
+    );
+    let accuracy = record("far")["accuracy"].clone();
+    assert_eq!(accuracy["accurate"], false);
+    assert!(accuracy["inaccurate_from"]["time"].as_f64().unwrap() > 0.0);
+    // Nothing of the second run is in a checkpoint.
+    let output = checked(&["--resume", "--checkpoint", "1", "-o", "far"]);
+    assert_eq!(code(&output), 2);
+}
+
+#[test]
 fn progress_comes_as_lines_of_json() {
     let folder = folder("progress", &[("p.adm", PENDULUM)]);
     let output = stiction(
@@ -510,6 +549,7 @@ fn help_says_what_there_is() {
         "--dtout",
         "--error",
         "--integrator",
+        "--check-accuracy",
         "--set",
         "--progress",
         "--force",

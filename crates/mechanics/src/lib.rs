@@ -87,6 +87,7 @@
 //! ```
 
 mod assembly;
+mod comparison;
 mod constraint;
 pub mod curve;
 mod dynamics;
@@ -111,6 +112,7 @@ mod system;
 mod system_elements;
 
 pub use assembly::{Assembly, AssemblyError, Massless, Moved, Redundancy, Unmet, VelocityChange};
+pub use comparison::{Comparison, Deviation, Moment, Motion, Spread, StepError};
 pub use constraint::Owner;
 pub use dynamics::{Corrector, Formulation, Pattern, Sliding, Work};
 pub use equilibrium::{EquilibriumReport, EquilibriumSettings};

@@ -61,6 +61,24 @@ impl Quaternion {
         }
     }
 
+    /// Angle of the rotation from this orientation to another, radians in `[0, π]`.
+    ///
+    /// ```
+    /// use mechanics::rotation::Quaternion;
+    /// let quarter = Quaternion::exp(&nalgebra::Vector3::new(0.0, std::f64::consts::FRAC_PI_2, 0.0));
+    /// let angle = Quaternion::IDENTITY.angle_to(&quarter);
+    /// assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn angle_to(&self, other: &Self) -> f64 {
+        let back = Self {
+            w: self.w,
+            v: -self.v,
+        };
+        let turn = other.times(&back);
+        2.0 * turn.v.norm().atan2(turn.w.abs())
+    }
+
     /// Sum of the squares of the components.
     #[must_use]
     pub fn norm_squared(&self) -> f64 {

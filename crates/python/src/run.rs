@@ -102,7 +102,7 @@ impl Told {
 /// there are no files. `method` is the name of a method of integration. `facts` stand in the metadata of tables, `told` is called with time and end
 /// now and then.
 #[pyfunction]
-#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, method, facts, told))]
+#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, method, check_accuracy, facts, told))]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     model: &Project,
@@ -113,6 +113,7 @@ pub(crate) fn run<'py>(
     dtout: Option<f64>,
     error: Option<f64>,
     method: Option<String>,
+    check_accuracy: bool,
     facts: Vec<(String, String)>,
     told: Option<Py<PyAny>>,
 ) -> PyResult<Ran<'py>> {
@@ -139,6 +140,7 @@ pub(crate) fn run<'py>(
             error,
             method,
             text_results: folder.is_some() && wanted("res"),
+            check_accuracy,
             ..RunOptions::default()
         };
         let cleared = columnar::clear(into, project.prefix(), settings.text_results);

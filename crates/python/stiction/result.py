@@ -158,6 +158,17 @@ class Result:
         return dict(self._report)
 
     @property
+    def accuracy(self) -> Mapping[str, Any] | None:
+        """How accurate the run is, where `Model.run` was asked to tell: `accurate`, whether the estimate of
+        the error stayed within a hundred errors of a step; the largest `distance` and `rotation` of a
+        body from a second run with a tenth of ERROR, each with `body`, `difference`, the `estimate` of
+        the error (twice that), `unit`, `errors` (the estimate in errors of a step) and `time`;
+        `inaccurate_from`, the first that was beyond; `suggested_error`; `elements`, the largest
+        differences of frictions and states; `outputs` compared and `unmatched`; `second_failure`."""
+        accuracy: Mapping[str, Any] | None = self._report["accuracy"]
+        return accuracy
+
+    @property
     def options(self) -> Mapping[str, Any]:
         """What `Model.run` was given, and the changes of the model."""
         return dict(self._about["options"])

@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[3]
 BLOCKS = re.compile(r"```python\n(.*?)```(?:\s*```text\n(.*?)```)?", re.DOTALL)
 
 
-@pytest.mark.parametrize("page", ["python.md", "studies.md", "tutorial.md"])
+@pytest.mark.parametrize("page", ["accuracy.md", "python.md", "studies.md", "tutorial.md"])
 def test_the_page_prints_what_it_says(
     page: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -114,6 +114,12 @@ pub enum CheckpointError {
         "there is no checkpoint; --checkpoint writes them, and a run that has ended leaves none"
     )]
     Missing,
+    /// How accurate a run is cannot be told from its midst on.
+    #[error(
+        "a second run, which tells how accurate a run is, is in no checkpoint; resume without \
+         check-accuracy, or run from the beginning"
+    )]
+    CheckedAccuracy,
     /// It cannot be read.
     #[error("it cannot be read: {0}")]
     Unreadable(String),

@@ -10,6 +10,7 @@ use results::{DataKind, MessageWriter, StepRow};
 use serde::{Deserialize, Serialize};
 
 use crate::about::about;
+use crate::accuracy::AccuracyReport;
 use crate::balance::EnergyBalance;
 use crate::defaults::defaults_in_use;
 use crate::lower::APPLIED;
@@ -423,6 +424,13 @@ impl<'p, W: Write> Journal<'p, W> {
             self.warning(Code::EnergyBalance, None, text)?;
         }
         Ok(())
+    }
+
+    /// How accurate the run is, and what has to be said about that.
+    pub(crate) fn accuracy(&mut self, report: &AccuracyReport) -> Result<(), OutputError> {
+        self.note(&format!("\nAccuracy:\n{report}"))?;
+        let messages = report.messages(self.project).into_iter();
+        messages.map(|message| self.judged(message)).collect()
     }
 
     /// The end: what failed that has not been told, and the timing.

@@ -15,6 +15,7 @@
 //! | a run from outside | `session.rs` |
 //! | what the commands will ask for | `survey.rs` |
 //! | commands carried out | `runner.rs`, equilibria in `statics.rs`, settings and output times in `settings.rs` |
+//! | how accurate a run is | `accuracy.rs`, by a second run in `second_run.rs` |
 //! | one run at a time in a folder | `claim.rs` |
 //! | SAVE and RELOAD | `saving.rs`, their file `saved_system.rs` |
 //! | rows of results | `channels.rs`, forces of elements in `wrenches.rs`, written by `recorder.rs`, given to others by `sink.rs` |
@@ -47,6 +48,7 @@
 //! ```
 
 mod about;
+mod accuracy;
 mod argument;
 mod balance;
 mod channels;
@@ -77,6 +79,7 @@ mod resuming;
 mod runner;
 mod saved_system;
 mod saving;
+mod second_run;
 mod sensors;
 mod session;
 mod settings;
@@ -89,6 +92,7 @@ mod warnings;
 mod whole_file;
 mod wrenches;
 
+pub use accuracy::{AccuracyReport, BodyDeviation, ElementDeviation, SecondFailure};
 pub use argument::{Argument, ArgumentError};
 pub use balance::{EnergyBalance, EnergyTerm};
 pub use check::{CheckReport, check};

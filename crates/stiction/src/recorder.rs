@@ -5,7 +5,7 @@ use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use mechanics::{Snapshot, StepReport};
+use mechanics::{Snapshot, Statistics, StepReport};
 use results::{Blocks, DataKind, Header, ReqWriter, ResWriter, StepRow, WriteError};
 
 use crate::balance::EnergyAccount;
@@ -14,6 +14,7 @@ use crate::checkpoint::{CheckpointError, Keeper, Marks, ResumeError};
 use crate::journal::Journal;
 use crate::lower::Outputs;
 use crate::report::{self, FrictionReport};
+use crate::second_run::Role;
 use crate::session::{OutputError, Progress, Watch};
 use crate::sink::Sink;
 use crate::wrenches::Wrenches;
@@ -172,6 +173,8 @@ pub(crate) struct Recorder<'a, W: Write> {
     pub(crate) account: EnergyAccount,
     /// Rows written after the initial conditions.
     pub(crate) count: usize,
+    /// What the run is in a comparison with another one.
+    pub(crate) role: Role,
 }
 
 impl<W: Write> Recorder<'_, W> {
@@ -310,6 +313,8 @@ pub(crate) struct Observe<'a, 'p, W: Write> {
     pub(crate) taken: usize,
     /// What knows when to write a checkpoint.
     pub(crate) keeper: Option<&'a Keeper>,
+    /// What the integrator did up to the last step.
+    pub(crate) statistics: Statistics,
 }
 
 impl<W: Write> Observe<'_, '_, W> {
@@ -330,13 +335,18 @@ impl<W: Write> Observe<'_, '_, W> {
                 return false;
             }
         }
-        let progress = Progress {
-            time: report.time,
-            end: self.end,
-            statistics: report.statistics,
-        };
-        self.interrupted = !self.watch.progress(&progress);
+        self.statistics = report.statistics;
+        let progress = self.progress(report.time);
+        self.interrupted = self.interrupted || !self.watch.progress(&progress);
         true
+    }
+
+    fn progress(&self, time: f64) -> Progress {
+        Progress {
+            time,
+            end: self.end,
+            statistics: self.statistics,
+        }
     }
 
     /// Whether to pause after a step: the run is interrupted, or a checkpoint is due.
@@ -356,6 +366,7 @@ impl<W: Write> Observe<'_, '_, W> {
         match warned {
             Ok(()) => {
                 self.taken += 1;
+                self.compare(wrenches.snapshot());
                 true
             }
             Err(stop) => {
@@ -363,5 +374,15 @@ impl<W: Write> Observe<'_, '_, W> {
                 false
             }
         }
+    }
+
+    /// Takes an output to the comparison with another run, which may have it wait for that one.
+    fn compare(&mut self, snapshot: &Snapshot<'_>) {
+        if self.interrupted {
+            return;
+        }
+        let progress = self.progress(snapshot.time());
+        let goes_on = || self.watch.progress(&progress);
+        self.interrupted = !self.recorder.role.output(snapshot, goes_on);
     }
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::accuracy::{AccuracyReport, BodyDeviation, ElementDeviation};
 use crate::balance::{EnergyBalance, EnergyTerm};
 use crate::eigensolution::ModeReport;
 use crate::message::Message;
@@ -74,6 +75,7 @@ impl RunReport {
             },
             "modes": self.modes.iter().map(modes_json).collect::<Vec<_>>(),
             "energy_balance": self.balance.as_ref().map(balance_json),
+            "accuracy": self.accuracy.as_ref().map(accuracy_json),
             "frictions": self.frictions.iter().map(friction_json).collect::<Vec<_>>(),
         })
     }
@@ -103,6 +105,46 @@ fn balance_json(balance: &EnergyBalance) -> Value {
         "residual": balance.residual(),
         "residual_share": balance.residual_share(),
         "exchanged": balance.exchanged,
+    })
+}
+
+/// What is no number is null.
+fn accuracy_json(report: &AccuracyReport) -> Value {
+    json!({
+        "accurate": report.is_accurate(),
+        "outputs": report.outputs,
+        "unmatched": report.unmatched,
+        "distance": report.distance.as_ref().map(deviation_json),
+        "rotation": report.rotation.as_ref().map(deviation_json),
+        "inaccurate_from": report.inaccurate.as_ref().map(deviation_json),
+        "suggested_error": report.remedy,
+        "elements": report.elements.iter().map(element_json).collect::<Vec<_>>(),
+        "second_failure": report.second_failure.as_ref().map(|failure| json!({
+            "time": failure.time,
+            "message": failure.cause,
+        })),
+    })
+}
+
+fn deviation_json(deviation: &BodyDeviation) -> Value {
+    json!({
+        "body": deviation.body.to_string(),
+        "difference": deviation.difference,
+        "estimate": deviation.estimate,
+        "unit": deviation.unit,
+        "errors": deviation.errors(),
+        "time": deviation.time,
+    })
+}
+
+fn element_json(deviation: &ElementDeviation) -> Value {
+    json!({
+        "element": deviation.element.to_string(),
+        "quantity": deviation.quantity,
+        "difference": deviation.difference,
+        "part": deviation.part(),
+        "unit": deviation.unit,
+        "time": deviation.time,
     })
 }
 

@@ -23,8 +23,11 @@ use crate::project::{Project, SourcedCommand, second};
 use crate::recorder::{Observe, Recorder, ResultFiles, Stop, reopened};
 use crate::report;
 use crate::saved_system::SavedSystem;
+use crate::second_run::Role;
 use crate::sensors::{Effect, Keeping, Sensing, Sensors};
-use crate::session::{FailedCommand, Outcome, OutputError, RunOptions, RunReport, Session, Watch};
+use crate::session::{
+    FailedCommand, Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch,
+};
 use crate::settings;
 use crate::sink::Sink;
 use crate::time_span::{self, TimeSpan};
@@ -43,6 +46,8 @@ pub(crate) struct Runner<'a> {
     pub(crate) changes_made: String,
     /// What SAVE/STATES keeps, by name.
     pub(crate) buffers: HashMap<String, SavedSystem>,
+    /// What SAVE/SYSTEM of a second run keeps in the place of files, by their names.
+    pub(crate) files: HashMap<String, SavedSystem>,
     pub(crate) measures: Measures,
     pub(crate) lowered: Lowered,
     /// What sensors have kept.
@@ -134,6 +139,7 @@ impl<'a> Runner<'a> {
         options: RunOptions,
         from: Option<Checkpoint<'static>>,
         mut sink: Option<&'a mut dyn Sink>,
+        role: Role,
     ) -> Result<Self, ResumeError> {
         let project = session.project;
         let dataset = project.dataset().clone();
@@ -151,8 +157,12 @@ impl<'a> Runner<'a> {
         let shown = log_path.display().to_string();
         let (log, files) = match &from {
             None => {
-                let log =
-                    File::create(&log_path).map_err(|error| OutputError::new(&shown, &error))?;
+                let log = match role.is_second() {
+                    // What it says is for no one.
+                    true => tempfile::tempfile(),
+                    false => File::create(&log_path),
+                };
+                let log = log.map_err(|error| OutputError::new(&shown, &error))?;
                 let version = env!("CARGO_PKG_VERSION");
                 let log = MessageWriter::new(log, "stiction", version, None)
                     .map_err(|error| OutputError::new(&shown, &error))?;
@@ -193,6 +203,7 @@ impl<'a> Runner<'a> {
             // The first line of a command file may name a model.
             changes_made: "\n".to_owned(),
             buffers: HashMap::new(),
+            files: HashMap::new(),
             measures,
             kept: BTreeMap::new(),
             changed: false,
@@ -221,6 +232,7 @@ impl<'a> Runner<'a> {
                 account: EnergyAccount::new(frictions.len(), &units),
                 frictions,
                 count: 0,
+                role,
             },
             lowered,
         };
@@ -233,6 +245,15 @@ impl<'a> Runner<'a> {
     /// Carries out the commands and ends the files.
     pub(crate) fn carry_out(mut self, watch: &mut dyn Watch) -> Result<RunReport, OutputError> {
         let outcome = self.commands(watch)?;
+        if outcome == Outcome::Completed {
+            let progress = Progress {
+                time: self.simulation.state().time,
+                end: self.last_end,
+                statistics: self.simulation.statistics(),
+            };
+            let role = &mut self.recorder.role;
+            role.completed(|| watch.progress(&progress));
+        }
         self.finish(outcome)
     }
 
@@ -248,6 +269,7 @@ impl<'a> Runner<'a> {
         let first = self.command;
         for (place, step) in project.steps().iter().enumerate().skip(first) {
             self.command = place;
+            self.recorder.role.command(place);
             if self.under_way.is_none() {
                 // What a command has changed is known to the model only once it is simulated.
                 if !self.changed && self.keeper.as_ref().is_some_and(Keeper::is_due) {
@@ -274,13 +296,18 @@ impl<'a> Runner<'a> {
                 Ok(()) => {}
                 Err(Halt::Ended(Outcome::Completed)) => break,
                 Err(Halt::Ended(outcome)) => {
+                    let time = self.simulation.state().time;
+                    self.recorder.role.failed(time, &outcome, None);
                     self.log.failed(&outcome, None)?;
                     return Ok(outcome);
                 }
                 Err(Halt::Failed(outcome, message)) => {
+                    let time = self.simulation.state().time;
+                    let text = message.as_ref().map(|m| &*m.diagnostic.message);
+                    self.recorder.role.failed(time, &outcome, text);
                     self.failures.push(FailedCommand {
                         command: step.command.echo.clone(),
-                        time: self.simulation.state().time,
+                        time,
                         outcome: outcome.clone(),
                     });
                     self.log.failed(&outcome, message.map(|message| *message))?;
@@ -533,6 +560,8 @@ impl<'a> Runner<'a> {
             &self.options,
             second(&self.dataset),
         );
+        let role = &mut self.recorder.role;
+        let settings = role.integration(choice.settings, self.length);
         let mut sensors = Sensors::new(&self.dataset, &self.lowered.outputs);
         let mut paused = under_way.is_some();
         let (start, mut taken, mut next_row) = if let Some(under_way) = under_way {
@@ -541,8 +570,8 @@ impl<'a> Runner<'a> {
         } else {
             let start = self.simulation.state().time;
             let notes: Vec<String> = choice.notes.into_iter().chain(span.note()).collect();
-            self.log.begin(kind, &choice.settings, &notes, start)?;
-            let velocity = choice.settings.error * self.length / second(&self.dataset);
+            self.log.begin(kind, &settings, &notes, start)?;
+            let velocity = settings.error * self.length / second(&self.dataset);
             self.recorder
                 .begin_motion(kind, &self.simulation.snapshot(), velocity)?;
             (start, 0, start)
@@ -561,6 +590,7 @@ impl<'a> Runner<'a> {
                 interrupted: false,
                 taken,
                 keeper: self.keeper.as_ref(),
+                statistics: self.simulation.statistics(),
             };
             let mut observer = Sensing {
                 rows,
@@ -568,13 +598,13 @@ impl<'a> Runner<'a> {
                 effect: Effect::None,
                 keeping: Keeping::new(&self.lowered, &mut self.kept),
             };
-            let (times, settings) = (span.outputs(start, taken), &choice.settings);
+            let times = span.outputs(start, taken);
             let ran = if paused {
                 self.simulation
-                    .go_on(span.end, times, settings, &mut observer)
+                    .go_on(span.end, times, &settings, &mut observer)
             } else {
                 self.simulation
-                    .run(span.end, times, settings, &mut observer)
+                    .run(span.end, times, &settings, &mut observer)
             };
             let Sensing {
                 rows,
@@ -639,6 +669,11 @@ impl<'a> Runner<'a> {
         if let Some(balance) = self.recorder.account.balance() {
             self.log.balance(balance)?;
         }
+        let units = unit_names(&self.dataset);
+        let accuracy = self.recorder.role.report(&self.lowered.model, &units);
+        if let Some(accuracy) = &accuracy {
+            self.log.accuracy(accuracy)?;
+        }
         let completed = outcome == Outcome::Completed;
         self.log.finish(completed, text, elapsed)?;
         let Recorder {
@@ -666,6 +701,7 @@ impl<'a> Runner<'a> {
             frictions,
             modes: self.modes,
             balance: account.balance().cloned(),
+            accuracy,
             files: others,
             elapsed,
         })

@@ -37,6 +37,11 @@ impl Runner<'_> {
         };
         let time = saved.simulation.time();
         let kept = match place {
+            // It writes no files, and reads its own in the place of those that the first run writes.
+            SavedIn::File(name) if self.recorder.role.is_second() => {
+                self.files.insert(name.clone(), saved.clone());
+                name.clone()
+            }
             SavedIn::File(name) => {
                 let path = self.folder.join(name);
                 self.write_saved(&saved, &path, step)?;
@@ -137,6 +142,9 @@ impl Runner<'_> {
 
     /// Reads a saved system, from the folder of the results or that of the command file.
     fn read_saved(&self, name: &str, step: &SourcedCommand) -> Result<(SavedSystem, String), Halt> {
+        if let Some(saved) = self.files.get(name) {
+            return Ok((saved.clone(), name.to_owned()));
+        }
         let project = self.session.project;
         let places = [self.folder.clone(), project.folder_of(step)];
         let paths = places.map(|folder| folder.join(name));

@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use mechanics::Statistics;
 
+use crate::accuracy::AccuracyReport;
 use crate::balance::EnergyBalance;
 use crate::channels::Channels;
-use crate::checkpoint::{Checkpoint, Job, ResumeError};
+use crate::checkpoint::{Checkpoint, CheckpointError, Job, ResumeError};
 use crate::eigensolution::ModeReport;
 use crate::lower::{Measures, Mode, lower};
 use crate::message::{InputError, Message};
@@ -16,6 +17,7 @@ use crate::method::Method;
 use crate::project::Project;
 use crate::report::FrictionReport;
 use crate::runner::Runner;
+use crate::second_run::{self, Role};
 use crate::sink::{Layout, Sink};
 
 /// What can be said about a run beyond its files.
@@ -34,6 +36,10 @@ pub struct RunOptions {
     /// Whether `.res` and `.req` are written, as they are by default; a run with checkpoints always
     /// writes them, and every run its `.msg`.
     pub text_results: bool,
+    /// Whether a second run with a tenth of ERROR goes beside it, in a thread of its own, that tells how
+    /// accurate the run is: [`RunReport::accuracy`]. The run waits for it at the outputs; its results are
+    /// those without it. A run that is resumed has none.
+    pub check_accuracy: bool,
 }
 
 impl Default for RunOptions {
@@ -43,6 +49,7 @@ impl Default for RunOptions {
             method: None,
             checkpoint: None,
             text_results: true,
+            check_accuracy: false,
         }
     }
 }
@@ -124,6 +131,8 @@ pub struct RunReport {
     pub modes: Vec<ModeReport>,
     /// Energy balance of its dynamic simulations; `None` where there was none.
     pub balance: Option<EnergyBalance>,
+    /// How accurate it is, where that was asked for.
+    pub accuracy: Option<AccuracyReport>,
     /// The files written.
     pub files: Vec<PathBuf>,
     /// Wall time, seconds.
@@ -215,7 +224,7 @@ impl<'a> Session<'a> {
         options: RunOptions,
         watch: &mut dyn Watch,
     ) -> Result<RunReport, OutputError> {
-        self.begin(folder, options, None)?.carry_out(watch)
+        self.carry_out(folder, options, None, watch)
     }
 
     /// [`Session::run`] that gives the rows of its results to `sink`, too.
@@ -229,16 +238,33 @@ impl<'a> Session<'a> {
         watch: &mut dyn Watch,
         sink: &mut dyn Sink,
     ) -> Result<RunReport, OutputError> {
-        self.begin(folder, options, Some(sink))?.carry_out(watch)
+        self.carry_out(folder, options, Some(sink), watch)
     }
 
-    fn begin<'s>(
+    fn carry_out<'s>(
         &'s self,
         folder: &Path,
         options: RunOptions,
         sink: Option<&'s mut dyn Sink>,
+        watch: &mut dyn Watch,
+    ) -> Result<RunReport, OutputError> {
+        let run = |role| self.begin(folder, options, sink, role)?.carry_out(watch);
+        if options.check_accuracy {
+            second_run::beside(self, folder, options, run)
+        } else {
+            run(Role::Alone)
+        }
+    }
+
+    /// A run from its beginning, alone or as one of two.
+    pub(crate) fn begin<'s>(
+        &'s self,
+        folder: &Path,
+        options: RunOptions,
+        sink: Option<&'s mut dyn Sink>,
+        role: Role,
     ) -> Result<Runner<'s>, OutputError> {
-        Runner::new(self, folder, options, None, sink).map_err(|error| match error {
+        Runner::new(self, folder, options, None, sink, role).map_err(|error| match error {
             ResumeError::Output(error) => error,
             // Nothing is resumed.
             ResumeError::Refused { path, cause } => OutputError::new(path, &cause),
@@ -250,8 +276,9 @@ impl<'a> Session<'a> {
     /// of a run that was never interrupted, but for the times that the message file tells.
     ///
     /// # Errors
-    /// Without a checkpoint of the same files and options by the same build of the program; and files
-    /// that cannot be written.
+    /// Without a checkpoint of the same files and options by the same build of the program; with
+    /// [`RunOptions::check_accuracy`], whose second run is in no checkpoint; and files that cannot be
+    /// written.
     pub fn resume(
         &self,
         folder: &Path,
@@ -259,12 +286,18 @@ impl<'a> Session<'a> {
         watch: &mut dyn Watch,
     ) -> Result<RunReport, ResumeError> {
         let path = Checkpoint::path(folder, self.project.prefix());
+        if options.check_accuracy {
+            return Err(ResumeError::Refused {
+                path: path.display().to_string(),
+                cause: CheckpointError::CheckedAccuracy,
+            });
+        }
         let job = Job::new(self.project, &options);
         let checkpoint = Checkpoint::read(&path, &job).map_err(|cause| ResumeError::Refused {
             path: path.display().to_string(),
             cause,
         })?;
-        let runner = Runner::new(self, folder, options, Some(checkpoint), None)?;
+        let runner = Runner::new(self, folder, options, Some(checkpoint), None, Role::Alone)?;
         Ok(runner.carry_out(watch)?)
     }
 }

@@ -22,6 +22,7 @@ impl Runner<'_> {
         watch: &mut dyn Watch,
     ) -> Result<(), Halt> {
         let (settings, note) = settings::equilibrium(self.dataset.equilibrium.as_ref());
+        let settings = self.recorder.role.equilibria(settings);
         let kind = match span {
             None => DataKind::Static,
             Some(_) => DataKind::QuasiStatic,
@@ -107,6 +108,7 @@ impl Runner<'_> {
             interrupted: false,
             taken: 0,
             keeper: None,
+            statistics: self.simulation.statistics(),
         };
         let mut observer = Sensing {
             rows,
@@ -122,6 +124,7 @@ impl Runner<'_> {
             ..
         } = observer;
         self.changed |= keeping.changes_functions;
+        let interrupted = rows.interrupted;
         if let Some(stop) = rows.stop {
             return Err(Halt::of_row(Outcome::IntegrationFailed, stop));
         }
@@ -131,6 +134,6 @@ impl Runner<'_> {
             end: self.last_end,
             statistics: self.simulation.statistics(),
         };
-        Ok((effect, watch.progress(&progress)))
+        Ok((effect, !interrupted && watch.progress(&progress)))
     }
 }

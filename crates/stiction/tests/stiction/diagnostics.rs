@@ -53,7 +53,11 @@ fn told(path: &Path) -> Vec<Message> {
     }
     let folder = scratch_folder();
     let session = Session::new(&project).unwrap();
-    let report = session.run(&folder, RunOptions::default(), &mut GoOn);
+    let options = RunOptions {
+        check_accuracy: true,
+        ..RunOptions::default()
+    };
+    let report = session.run(&folder, options, &mut GoOn);
     messages.extend(report.unwrap().messages);
     std::fs::remove_dir_all(folder).unwrap();
     messages

@@ -5,6 +5,7 @@
     reason = "the figures of the comparisons are what these tests show"
 )]
 
+mod accuracy;
 mod adams;
 mod applied_forces;
 mod bristles;

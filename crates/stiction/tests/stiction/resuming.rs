@@ -12,7 +12,7 @@ use crate::saving::MODEL;
 use crate::shared::{GoOn, scratch_folder};
 
 /// Stops a run after so many reports of progress.
-struct StopAfter(usize);
+pub(crate) struct StopAfter(pub(crate) usize);
 
 impl Watch for StopAfter {
     fn progress(&mut self, _: &Progress) -> bool {
@@ -27,6 +27,7 @@ const SELDOM: RunOptions = RunOptions {
     method: None,
     checkpoint: Some(Duration::MAX),
     text_results: true,
+    check_accuracy: false,
 };
 /// Checkpoints after every step.
 const ALWAYS: RunOptions = RunOptions {
@@ -34,10 +35,11 @@ const ALWAYS: RunOptions = RunOptions {
     method: None,
     checkpoint: Some(Duration::ZERO),
     text_results: true,
+    check_accuracy: false,
 };
 
 /// A project of a dataset `model.adm` and commands.
-fn project(dataset: &str, commands: &str) -> Project {
+pub(crate) fn project(dataset: &str, commands: &str) -> Project {
     let folder = scratch_folder();
     std::fs::write(folder.join("model.adm"), dataset).unwrap();
     let file = folder.join("run.acf");
@@ -82,7 +84,7 @@ fn untimed(line: &str) -> String {
 }
 
 /// Runs a project at one go.
-fn at_one_go(project: &Project, options: RunOptions) -> Vec<(PathBuf, String)> {
+pub(crate) fn at_one_go(project: &Project, options: RunOptions) -> Vec<(PathBuf, String)> {
     let folder = scratch_folder();
     let session = Session::new(project).unwrap_or_else(|error| panic!("{error}"));
     let report = session.run(&folder, options, &mut GoOn).unwrap();
@@ -120,7 +122,7 @@ fn in_pieces(project: &Project, steps: usize) -> (Vec<(PathBuf, String)>, usize)
 }
 
 /// All kinds of simulations, with changes, sensors and saved systems between them.
-const COMMANDS: &str = "SIM/DYN, END=0.4, STEPS=40
+pub(crate) const COMMANDS: &str = "SIM/DYN, END=0.4, STEPS=40
 LINEAR/EIGENSOL
 FRICTION/1, MU_STATIC=0.6
 SIM/DYN, END=0.7, STEPS=11
@@ -135,7 +137,7 @@ SIM/DYN, END=1.5, STEPS=20
 ";
 
 /// A block on a spring, with equilibria one after another and a sensor that ends them.
-const BLOCK: &str = "A block on a spring
+pub(crate) const BLOCK: &str = "A block on a spring
 PART/1, GROUND
 MARKER/3, PART=1, REULER=90D, 90D, 0
 PART/3, MASS=1, CM=30, IP=1, 1, 1
@@ -148,7 +150,7 @@ REQUEST/1, DISPLACEMENT, I=30, J=3
 SENSOR/1, GE, VALUE=0.15, ERROR=1E-3, FUNCTION=TIME\\, RETURN
 END
 ";
-const EQUILIBRIA: &str = "SIM/STATIC
+pub(crate) const EQUILIBRIA: &str = "SIM/STATIC
 SIM/STATIC, END=0.3, STEPS=9
 SIM/DYN, END=0.5, STEPS=12
 SIM/STATIC, END=0.7, STEPS=4
@@ -156,7 +158,7 @@ SIM/STATIC
 ";
 
 /// Tells the first line that differs; files of many lines are nothing to print.
-fn same(pieces: &[(PathBuf, String)], whole: &[(PathBuf, String)], what: &str) {
+pub(crate) fn same(pieces: &[(PathBuf, String)], whole: &[(PathBuf, String)], what: &str) {
     let names = |files: &[(PathBuf, String)]| -> Vec<PathBuf> {
         files.iter().map(|(name, _)| name.clone()).collect()
     };

@@ -1,9 +1,9 @@
 //! Where the bodies of a run were at its outputs.
 
 use mechanics::model::Model;
-use mechanics::rotation;
-use mechanics::{Ending, Observer, Settings, Simulation, Snapshot, StepReport};
-use nalgebra::{Matrix3, Vector3};
+use mechanics::{
+    Comparison, Ending, Moment, Observer, Settings, Simulation, Snapshot, StepError, StepReport,
+};
 
 /// Outputs of a run.
 const OUTPUTS: usize = 10;
@@ -21,7 +21,7 @@ pub(super) enum Missing {
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     length: f64,
-    outputs: Vec<Vec<(Vector3<f64>, Matrix3<f64>)>>,
+    outputs: Vec<Moment>,
     pub(super) steps: usize,
 }
 
@@ -60,18 +60,12 @@ impl Track {
     /// The largest distance of a body from where `other` has it, as a part of the length of the
     /// mechanism, or its largest rotation from there in radians.
     pub(super) fn distance(&self, other: &Self) -> f64 {
-        let mut most = 0.0_f64;
+        let mut comparison = Comparison::default();
+        let error = StepError::new(1.0, self.length);
         for (here, there) in self.outputs.iter().zip(&other.outputs) {
-            for ((r, turn), (other_r, other_turn)) in here.iter().zip(there) {
-                let apart = (r - other_r).norm() / self.length;
-                let turned = rotation::log(&(turn * other_turn.transpose())).norm();
-                for error in [apart, turned] {
-                    // `max` would pass over what is not a number.
-                    most = if error <= most { most } else { error };
-                }
-            }
+            comparison.add(here, there, error);
         }
-        most
+        comparison.largest().map_or(0.0, |largest| largest.errors())
     }
 }
 
@@ -88,9 +82,7 @@ impl Observer for Watch {
     }
 
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
-        let bodies = 0..snapshot.model().bodies.len();
-        let place = |body| (snapshot.state().centre(body), snapshot.rotation(body));
-        self.track.outputs.push(bodies.map(place).collect());
+        self.track.outputs.push(Moment::of(snapshot));
         true
     }
 }
