@@ -125,6 +125,19 @@ def test_methods_of_integration_are_chosen_by_name() -> None:
         model.run(end=0.1, integrator="adms")
 
 
+def test_how_accurate_a_run_is_is_told_where_it_is_asked_for() -> None:
+    model = stiction.loads(PENDULUM)
+    alone = model.run(end=1.0, dtout=0.01)
+    assert alone.accuracy is None
+    checked = model.run(end=1.0, dtout=0.01, check_accuracy=True)
+    np.testing.assert_array_equal(checked.values, alone.values)
+    accuracy = checked.accuracy
+    assert accuracy is not None and checked.options["check_accuracy"]
+    assert accuracy["outputs"] == 100 and accuracy["second_failure"] is None
+    estimate = accuracy["distance"]["estimate"]
+    assert 0.0 < estimate == 2 * accuracy["distance"]["difference"]
+
+
 def test_a_run_that_fails_tells_and_keeps_its_results() -> None:
     # The second term goes to infinity at 0.5.
     model = stiction.loads(BLOCK).replace({"pull.function": "10*TIME+1E-3/(0.5-TIME)**4"})

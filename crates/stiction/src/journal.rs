@@ -429,8 +429,8 @@ impl<'p, W: Write> Journal<'p, W> {
     /// How accurate the run is, and what has to be said about that.
     pub(crate) fn accuracy(&mut self, report: &AccuracyReport) -> Result<(), OutputError> {
         self.note(&format!("\nAccuracy:\n{report}"))?;
-        let messages = report.messages(self.project).into_iter();
-        messages.map(|message| self.judged(message)).collect()
+        let mut messages = report.messages(self.project).into_iter();
+        messages.try_for_each(|message| self.judged(message))
     }
 
     /// The end: what failed that has not been told, and the timing.
