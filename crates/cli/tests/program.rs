@@ -518,6 +518,15 @@ fn an_interrupt_keeps_the_results() {
     assert!(results.contains("runStatus=\"Interrupted\""));
     let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
     assert_eq!(record["outcome"], "interrupted");
+
+    let asked = ["--check-accuracy", "--force"];
+    let run = ["run", "p.adm", "--end", "1e5", "--dtout", "0.1"];
+    let running = Running::start(&folder, &[&run[..], &asked].concat());
+    assert_eq!(code(&running.interrupt()), 130);
+    let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
+    assert_eq!(record["outcome"], "interrupted");
+    let accuracy = &record["accuracy"];
+    assert!(accuracy["outputs"].is_u64() && accuracy["second_failure"].is_null());
 }
 
 #[test]
