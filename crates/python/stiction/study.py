@@ -108,6 +108,7 @@ class Plan:
             "dtout": dtout,
             "error": error,
             "integrator": None,
+            "check_accuracy": False,
             "changes": [*self.model.changes, *self.native.changes(case)],
             "case": case,
             "seed": self.native.seed(case),
