@@ -288,6 +288,8 @@ impl Bdf {
         let mut end = None;
         loop {
             let shortest = self.settings.shortest_step;
+            // A step that lands on the stop may be longer by rounding.
+            let gives_up = |size: f64| size <= shortest * (1.0 + 1e-6);
             let wanted = self.size.max(shortest).min(self.settings.longest_step);
             // Landing on the stop must not leave a sliver of a step for the next one.
             let (size, time) = if let Some(end) = end.take() {
@@ -320,7 +322,7 @@ impl Bdf {
                 if failures > 2 {
                     self.lower_order();
                 }
-                if size <= shortest {
+                if gives_up(size) {
                     self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Failed { time: start, cause });
                 }
@@ -341,7 +343,7 @@ impl Bdf {
                     0.1
                 };
                 self.size = size * shrink.clamp(0.1, 0.9);
-                if size <= shortest {
+                if gives_up(size) {
                     self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Inaccurate { time: start, size });
                 }

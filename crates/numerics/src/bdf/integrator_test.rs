@@ -252,3 +252,38 @@ fn a_failing_system_ends_with_its_last_good_state() {
     assert!((bdf.value()[0] - bdf.time()).abs() < 1e-12);
     assert!(bdf.time() <= 0.5);
 }
+
+#[test]
+fn a_last_step_of_the_shortest_length_that_fails_ends_the_run() {
+    /// Fails, or solves and is never accurate.
+    struct Hopeless {
+        fails: bool,
+    }
+    impl System for Hopeless {
+        type Failure = ();
+        fn solve(&mut self, _: &Step<'_>, _: &mut [f64]) -> Result<(), ()> {
+            if self.fails { Err(()) } else { Ok(()) }
+        }
+        fn norm(&mut self, _: &[f64]) -> f64 {
+            2.0
+        }
+        fn accepted(&mut self, _: &Step<'_>, _: &[f64]) {}
+    }
+    let settings = Settings {
+        family: Family::BackwardDifferences,
+        highest_order: 5,
+        longest_step: 1e-3,
+        shortest_step: 1e-3,
+        untested: false,
+    };
+    for fails in [true, false] {
+        // Rounding has left the stop a little further away than the shortest step.
+        for excess in [0.0, 1e-15, 1e-12, 0.9e-9, 1e-8, 1e-3, 0.9] {
+            let mut system = Hopeless { fails };
+            let mut bdf = Bdf::new(1, settings);
+            bdf.start(&system, 0.0, &[0.0], &[1.0], 1e-3);
+            let ended = bdf.advance(&mut system, 1e-3 * (1.0 + excess));
+            assert!(ended.is_err(), "{fails} {excess:e}");
+        }
+    }
+}
