@@ -365,7 +365,7 @@ impl System {
         let applied: Vec<f64> = (0..self.model.forces.len())
             .map(|place| self.force_value(place))
             .collect();
-        let largest = largest_of(multipliers)
+        let largest = largest_of(&multipliers[..self.first_shared()])
             .max(largest_of(&applied))
             .max(weight);
         if largest > 0.0 { largest } else { 1.0 }

@@ -159,7 +159,9 @@ impl Instant {
             if settled && elements.settled(last_elements) {
                 return Ok(());
             }
-            renew = change > 0.1 * last || elements.own > 0.1 * last_elements;
+            // A matrix of a guess that was far off says nothing of how friction follows the reactions: with
+            // it friction that loads itself may come to another solution, where the joint jams.
+            renew = change > 0.1 * last.min(size) || elements.own > 0.1 * last_elements;
             last = change;
             last_elements = elements.own;
         }
@@ -177,7 +179,10 @@ impl Instant {
         let largest = |values: &[f64]| values.iter().fold(SMALLEST, |m, v| m.max(v.abs()));
         let groups = [
             (moving, &accelerations[moving..]),
-            (n + system.row_count(), &multipliers[system.row_count()..]),
+            (
+                n + system.row_count(),
+                &multipliers[system.row_count()..system.first_shared()],
+            ),
         ];
         // Rounding in a variable that reads reactions is that of the reactions.
         let scales = [largest(groups[0].1), largest(multipliers)];
@@ -270,7 +275,7 @@ impl Instant {
         // One matrix serves: the corrections are of the size of the integration error.
         for _ in 0..10 {
             let mut error = 0.0_f64;
-            self.right[..n].fill(0.0);
+            self.right.fill(0.0);
             for (row, &place) in system.rows.iter().enumerate() {
                 self.right[n + row] = -system.evaluated[place].error;
                 error = error.max(system.evaluated[place].error.abs());
@@ -282,7 +287,7 @@ impl Instant {
             state.displace(&self.right[..moving]);
             system.evaluate(state, false);
         }
-        self.right[..n].fill(0.0);
+        self.right.fill(0.0);
         system.velocity_lacks(state.velocities(), &mut self.right[n..]);
         self.factors.solve(&mut self.right);
         for (u, change) in state.velocities_mut().iter_mut().zip(&self.right[..n]) {
@@ -352,8 +357,13 @@ impl System {
         if let Some(&constraint) = self.rows.get(row) {
             return Some(Place::Constraint(constraint));
         }
-        let variable = row - self.rows.len();
-        (variable < self.model.algebraics.len()).then_some(Place::Algebraic(variable))
+        let Some(shared) = row.checked_sub(self.first_shared()) else {
+            return Some(Place::Algebraic(row - self.rows.len()));
+        };
+        self.shared_place(shared).map(|place| match place {
+            Ok(motion) => Place::Motion(motion),
+            Err(constraint) => Place::Constraint(constraint),
+        })
     }
 
     /// Whether an equation is that of a system element.

@@ -12,7 +12,7 @@ use crate::measure::{Measure, Quantity};
 use crate::model::{
     AlgebraicVariable, Body, Definition, DifferentialState, ForceAndTorque, ForceKind, Form,
     Friction, FrictionJoint, Joint, JointKind, JointStart, Label, Law, Level, Marker, Model,
-    Motion, MotionFreedom, Pin, SingleForce,
+    Motion, MotionFreedom, Pin, Reactions, SingleForce,
 };
 use crate::rotation::Quaternion;
 use crate::state::State;
@@ -483,11 +483,16 @@ fn bristles() -> Law {
 fn check(law: &Law, rows: Rows) {
     let system = System::new(model(law));
     let base = system.given_state(0.3);
+    check_system(system, base, rows);
+}
+
+fn check_system(system: System, base: State, rows: Rows) {
     let n = system.rate_count();
     let moving = system.velocity_count();
     let size = system.unknown_count();
     let past: Vec<f64> = (0..n).map(|k| 0.5 * vector(k)[k % 3]).collect();
     let impulses: Vec<f64> = (0..size - n).map(|k| vector(k + 7)[k % 3]).collect();
+    let shared = n + system.first_shared();
     let mut residual = Residual {
         system,
         base,
@@ -536,7 +541,9 @@ fn check(law: &Law, rows: Rows) {
             let entry = assembled[row * size + column];
             let error = (entry - slope[row]).abs();
             // The point mass's rotations are not unknowns of the motion: their inertia alone stays.
-            if turns && (row >= moving || row % 6 < 3 || row / 6 != 4) {
+            // How shares change with the bodies is left out.
+            let left_out = row >= shared && column < moving;
+            if turns && !left_out && (row >= moving || row % 6 < 3 || row / 6 != 4) {
                 let places = (
                     residual.system.describe(row),
                     residual.system.describe(column),
@@ -560,4 +567,22 @@ fn sliding_friction_and_position_rows() {
 #[test]
 fn bristles_and_velocity_rows() {
     check(&bristles(), Rows::Velocity);
+}
+
+#[test]
+fn shared_reactions() {
+    let mut model = model(&original(5.0));
+    model.reactions = Reactions::LeastSquares { length: Some(0.7) };
+    let mut system = System::new(model);
+    let base = system.given_state(0.3);
+    system.evaluate(&base, false);
+    // Every fourth equation is dropped; whether it depends on the others is nothing to derivatives.
+    let in_force: Vec<bool> = (0..system.constraints.len()).map(|k| k % 4 != 2).collect();
+    system.set_active(&in_force);
+    system.share_reactions();
+    // The equations are those of one loop.
+    let shared = system.multiplier_count() - system.first_shared();
+    let dropped = system.constraints.len() - system.row_count();
+    assert_eq!(shared, 12 * 5 + 2 * system.row_count() + dropped);
+    check_system(system, base, Rows::Position);
 }

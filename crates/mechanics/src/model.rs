@@ -394,6 +394,28 @@ pub enum Element {
     Friction(usize),
 }
 
+/// Which reactions constraints have that depend on one another: the motion leaves them open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Reactions {
+    /// Those without the equations that are dropped as redundant, whose own are zero. Which are dropped
+    /// is arbitrary, and so are the reactions.
+    #[default]
+    OfKept,
+    /// The least of all that give the same motion: the sum of their squares is least, of forces along the
+    /// axes of constraints and of torques divided by a length. So share equally stiff joints, in the limit
+    /// of large stiffness, whose stiffness against rotation is that against displacement times the square
+    /// of the length. (A general constraint counts with the largest force that it applies to a body,
+    /// torques about the centre of mass divided by the length.)
+    ///
+    /// Wojtyra and Frączek, *Comparison of selected methods of handling redundant constraints in multibody
+    /// systems simulations*, Journal of Computational and Nonlinear Dynamics 8, 2013.
+    LeastSquares {
+        /// The length, in the model's unit; where there is none that of the model,
+        /// [`System::length_scale`](crate::System::length_scale).
+        length: Option<f64>,
+    },
+}
+
 /// The whole model.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
@@ -419,6 +441,8 @@ pub struct Model {
     pub algebraics: Vec<AlgebraicVariable>,
     /// Quantities that functions read.
     pub measures: Vec<Measure>,
+    /// Reactions of constraints that depend on one another.
+    pub reactions: Reactions,
     /// Elements that rest; a friction rests with its joint.
     pub inactive: BTreeSet<Element>,
     /// Acceleration of gravity, ground axes.

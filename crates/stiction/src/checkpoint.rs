@@ -13,6 +13,7 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use mechanics::Paused;
+use mechanics::model::Reactions;
 use results::Blocks;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -22,6 +23,7 @@ use crate::eigensolution::ModeReport;
 use crate::journal::Told;
 use crate::lower::{Numbering, Setting};
 use crate::project::{Project, hexadecimal};
+use crate::reactions;
 use crate::report::Counted;
 use crate::runner::Recorded;
 use crate::saved_system::SavedSystem;
@@ -55,6 +57,7 @@ pub(crate) struct Job {
     error: Option<f64>,
     /// Name of the method of integration.
     integrator: Option<String>,
+    reactions: Reactions,
 }
 
 /// A simulation that is not at its end.
@@ -192,6 +195,7 @@ impl Job {
                 .collect(),
             error: options.error,
             integrator: options.method.map(|method| method.name().to_owned()),
+            reactions: options.reactions,
         }
     }
 
@@ -236,6 +240,11 @@ impl Job {
                 "--integrator",
                 self.integrator.clone(),
                 before.integrator.clone(),
+            ),
+            (
+                "--reactions",
+                Some(reactions::in_words(self.reactions)),
+                Some(reactions::in_words(before.reactions)),
             ),
         ];
         for (option, now, then) in options {

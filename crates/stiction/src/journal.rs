@@ -231,9 +231,10 @@ impl<'p, W: Write> Journal<'p, W> {
     pub(crate) fn assembly(
         &mut self,
         assembly: &Assembly,
-        freedoms: usize,
-        model: &Model,
+        system: &System,
     ) -> Result<(), OutputError> {
+        let (model, freedoms) = (system.model(), system.degrees_of_freedom());
+        let own_length = system.length_scale();
         let redundant: Vec<(String, String)> = assembly
             .redundant
             .iter()
@@ -242,6 +243,15 @@ impl<'p, W: Write> Journal<'p, W> {
         let count = i64::try_from(freedoms).unwrap_or(i64::MAX);
         let written = self.writer.degrees_of_freedom(count, &redundant);
         self.check(written)?;
+        if let (Reactions::LeastSquares { length }, false) =
+            (model.reactions, assembly.redundant.is_empty())
+        {
+            let length = length.unwrap_or(own_length);
+            self.note(&format!(
+                "reactions of redundant constraints: the least squares of forces and of torques \
+                 divided by {length:.6e}"
+            ))?;
+        }
         for moved in &assembly.moved {
             self.note(&format!(
                 "assembly moved {} by {:.3e} and turned it by {:.3e} rad",

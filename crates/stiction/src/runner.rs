@@ -38,7 +38,7 @@ const TABLE_ROWS: f64 = 10.0;
 /// A run while it goes on.
 pub(crate) struct Runner<'a> {
     pub(crate) session: &'a Session<'a>,
-    options: RunOptions,
+    pub(crate) options: RunOptions,
     /// Where the results go.
     pub(crate) folder: PathBuf,
     pub(crate) dataset: Dataset,
@@ -145,7 +145,11 @@ impl<'a> Runner<'a> {
         let dataset = project.dataset().clone();
         let mut measures = session.measures.clone();
         let source = project.model_source().name();
-        let lowered = lower(&dataset, source, &mut measures, &Mode::Dynamic.into());
+        let setting = Setting {
+            reactions: options.reactions,
+            ..Mode::Dynamic.into()
+        };
+        let lowered = lower(&dataset, source, &mut measures, &setting);
         let lowered = lowered.map_err(|diagnostics| {
             // The survey has lowered the same dataset.
             OutputError::new(source, &format!("{} errors", diagnostics.len()))
@@ -492,6 +496,7 @@ impl<'a> Runner<'a> {
         Setting {
             mode,
             kept: self.kept.clone(),
+            reactions: self.options.reactions,
         }
     }
 

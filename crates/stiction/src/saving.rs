@@ -189,7 +189,12 @@ impl Runner<'_> {
     fn go_on_from(&mut self, saved: &SavedSystem, step: &SourcedCommand) -> Result<(), Halt> {
         self.dataset = self.changed_dataset(&saved.changes);
         let source = self.session.project.model_source().name();
-        let lowered = lower(&self.dataset, source, &mut self.measures, &saved.setting);
+        // Options are those of this run.
+        let setting = Setting {
+            reactions: self.options.reactions,
+            ..saved.setting.clone()
+        };
+        let lowered = lower(&self.dataset, source, &mut self.measures, &setting);
         let lowered = lowered.map_err(|diagnostics| {
             let text: Vec<String> = diagnostics.into_iter().map(|d| d.message).collect();
             self.refuse(step, text.join("; "), "change it in the dataset")

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use mechanics::Statistics;
+use mechanics::model::Reactions;
 
 use crate::accuracy::AccuracyReport;
 use crate::balance::EnergyBalance;
@@ -28,6 +29,8 @@ pub struct RunOptions {
     /// Method of integration instead of that of the INTEGRATOR statement and of commands; its other
     /// arguments, and the error without one, stay.
     pub method: Option<Method>,
+    /// Which reactions redundant constraints have. A length is in the unit of the model.
+    pub reactions: Reactions,
     /// Wall time between two checkpoints, zero for one after every step: `PREFIX.checkpoint` in the
     /// folder of the results, from which [`Session::resume`] goes on. One is written at the start,
     /// one where the run is interrupted, and none is left behind by a run that has ended. None: no
@@ -47,6 +50,7 @@ impl Default for RunOptions {
         Self {
             error: None,
             method: None,
+            reactions: Reactions::OfKept,
             checkpoint: None,
             text_results: true,
             check_accuracy: false,

@@ -22,7 +22,10 @@ pub(crate) fn of_assembly(project: &Project, assembly: &Assembly, model: &Model)
         let mut warning = about(dataset, source, Severity::Warning, code, element, text);
         warning
             .note("its friction depends on which of the redundant equations are left out")
-            .help("constrain the mechanism once, with joints that leave more freedoms");
+            .help(
+                "constrain the mechanism once, with joints that leave more freedoms, or let joints \
+                 share reactions: --reactions least-squares",
+            );
         warning
     });
     let massless = assembly.massless.iter().map(|massless| {

@@ -137,6 +137,7 @@ impl System {
         self.check_directions()?;
         let not_unique = self.not_unique(&active, length)?;
         self.assemble_velocities(state, starts, velocities, length)?;
+        self.share_reactions();
         let redundant = order
             .into_iter()
             .filter(|&place| !active[place])

@@ -7,6 +7,7 @@ use super::least_change::Least;
 use super::report::AssemblyError;
 use super::rows::{Block, bodies_of, expand};
 use crate::constraint::Owner;
+use crate::model::Reactions;
 use crate::system::System;
 
 /// What is left of a row, relative to its length, for it to count as independent. Datasets carry
@@ -57,13 +58,26 @@ impl System {
             .collect()
     }
 
+    /// The constraints of loops where some were dropped, ascending.
+    pub(crate) fn constraints_of_dependent_loops(&mut self) -> Vec<usize> {
+        let in_force: Vec<bool> = self.constraints.iter().map(|c| c.row.is_some()).collect();
+        self.set_active(&vec![true; in_force.len()]);
+        let loops = self.loops_of_constraints();
+        self.set_active(&in_force);
+        let dependent = |places: &Vec<usize>| places.iter().any(|&place| !in_force[place]);
+        let mut places: Vec<usize> = loops.into_iter().filter(dependent).flatten().collect();
+        places.sort_unstable();
+        places
+    }
+
     /// Frictions of joints whose multipliers take part in a dependency.
     pub(super) fn not_unique(
         &mut self,
         active: &[bool],
         length: f64,
     ) -> Result<Vec<usize>, AssemblyError> {
-        if self.model.frictions.is_empty() {
+        let unique = self.model.reactions != Reactions::OfKept;
+        if unique || self.model.frictions.is_empty() {
             return Ok(Vec::new());
         }
         let all: Vec<bool> = vec![true; active.len()];

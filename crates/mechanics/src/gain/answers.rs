@@ -14,7 +14,7 @@ use crate::system::System;
 struct Column {
     /// Places of the motions that it acts on, and the force there that a unit load brings about.
     forces: Vec<(usize, f64)>,
-    /// Rows that its load depends on, and how.
+    /// Places of the unknowns that its load depends on, and how.
     loads: Vec<(usize, f64)>,
     /// The largest part of its coefficient against that in the gains; zero where it does not act.
     unused: f64,
@@ -107,9 +107,6 @@ impl Answers {
                 open = true;
             }
             for contribution in system.contributions(place) {
-                let Some(row) = system.constraints[contribution.constraint].row else {
-                    continue;
-                };
                 let by_reaction = element.load_by_reaction;
                 let slope = match contribution.share {
                     Share::Force(axis) => by_reaction[axis],
@@ -118,7 +115,10 @@ impl Answers {
                         by_reaction[3] * axis.x + by_reaction[4] * axis.y + by_reaction[5] * axis.z
                     }
                 };
-                column.loads.push((n + row, slope));
+                let loads = &mut column.loads;
+                system.multiplier_parts(contribution.constraint, |unknown, share| {
+                    loads.push((n + unknown, share * slope));
+                });
             }
         }
         Ok(open)

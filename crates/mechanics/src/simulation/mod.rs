@@ -173,9 +173,10 @@ impl Simulation {
             return Ok(None);
         }
         let assembly = self.system.assemble_again(&mut self.state)?;
-        let algebraics = self.multipliers.split_off(rows);
-        self.multipliers = vec![0.0; self.system.row_count()];
-        self.multipliers.extend(algebraics);
+        let mut multipliers = self.system.first_multipliers();
+        let (first, count) = (self.system.row_count(), self.model().algebraics.len());
+        multipliers[first..first + count].copy_from_slice(&self.multipliers[rows..rows + count]);
+        self.multipliers = multipliers;
         Ok(Some(assembly))
     }
 

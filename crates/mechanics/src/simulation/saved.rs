@@ -19,6 +19,9 @@ pub struct SavedState {
     state: State,
     accelerations: Vec<f64>,
     multipliers: Vec<f64>,
+    /// Unknowns of reactions that are shared.
+    #[serde(default)]
+    shared: Vec<f64>,
     scales: Scales,
     bristle_past: Vec<f64>,
     bristle_gamma: f64,
@@ -40,7 +43,7 @@ impl SavedState {
     fn fits(&self, system: &System) -> bool {
         let given = system.given_state(0.0);
         let rows = self.in_force.iter().filter(|active| **active).count();
-        let most = system.multiplier_count();
+        let most = system.first_shared();
         self.state.has_layout_of(&given)
             && rows == system.row_count()
             && self.accelerations.len() == system.rate_count()
@@ -72,7 +75,8 @@ impl Simulation {
         SavedState {
             state: self.state.clone(),
             accelerations: self.accelerations.clone(),
-            multipliers: self.multipliers.clone(),
+            multipliers: self.multipliers[..self.system.first_shared()].to_vec(),
+            shared: self.multipliers[self.system.first_shared()..].to_vec(),
             scales: self.scales,
             bristle_past: self.bristle_past.clone(),
             bristle_gamma: self.bristle_gamma,
@@ -110,6 +114,9 @@ impl Simulation {
         multipliers.extend(others.iter().map(|variable| variable.start));
         system.set_solution(&saved.accelerations, 1.0, &multipliers);
         system.evaluate(&saved.state, false);
+        system.share_reactions();
+        multipliers.extend_from_slice(&saved.shared);
+        multipliers.resize(system.multiplier_count(), 0.0);
         system.remember_angles_from(saved.history.angles.len());
         *self = Self {
             system,

@@ -35,9 +35,11 @@ impl System {
         self.statics && self.model.states[state].held_in_statics
     }
 
-    /// What the algebraic variables lack: `f − w`, or `f`.
+    /// What the algebraic variables lack: `f − w`, or `f`; then what the unknowns of shared reactions
+    /// lack.
     pub(crate) fn algebraic_residual(&mut self, multipliers: &[f64], out: &mut [f64]) {
         let (mut registers, adjoints) = self.take_scratch();
+        let (out, of_sharing) = out.split_at_mut(self.model.algebraics.len());
         for (place, out) in out.iter_mut().enumerate() {
             let own = self.inputs.algebraics[place];
             *out = match &self.model.algebraics[place].definition {
@@ -57,6 +59,7 @@ impl System {
             };
         }
         self.return_scratch(registers, adjoints);
+        self.sharing_residual(multipliers, of_sharing);
     }
 
     /// The first system element whose function is not a number.

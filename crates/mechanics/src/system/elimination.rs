@@ -29,11 +29,20 @@ impl System {
         groups.extend((bodies..bodies + states).map(group));
         groups.extend(self.bodies_of_rows());
         groups.extend((bodies + states..bodies + states + algebraics).map(group));
+        groups.extend(self.sharing_groups());
         groups
     }
 
     /// The body that each constraint equation in force is eliminated with, where one hangs on it.
     pub(crate) fn bodies_of_rows(&self) -> Vec<Option<u32>> {
+        self.bodies_of(self.rows.iter())
+    }
+
+    /// The body that each of some constraint equations would be eliminated with.
+    pub(super) fn bodies_of<'a>(
+        &self,
+        places: impl Iterator<Item = &'a usize>,
+    ) -> Vec<Option<u32>> {
         let parents = self.parents();
         let hanging = |&place: &usize| match self.constraints[place].bodies[..] {
             [body] if parents[body] == Parent::Ground => Some(body as u32),
@@ -41,7 +50,7 @@ impl System {
             [a, b] if parents[b] == Parent::Body(a) => Some(b as u32),
             _ => None,
         };
-        self.rows.iter().map(hanging).collect()
+        places.map(hanging).collect()
     }
 
     /// A spanning forest, breadth first, so that loops close half way around.

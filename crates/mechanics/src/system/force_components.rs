@@ -15,7 +15,7 @@ use numerics::linear::Matrix;
 use super::System;
 use super::newton_matrix::Weights;
 use super::single_force::{direction, direction_by_frame, direction_stiffness};
-use crate::constraint::{Form, Owner};
+use crate::constraint::{Form, Owner, places_of};
 use crate::equation::{Local, LocalMatrix, Pair};
 use crate::force_element::{ForceComponent, ForceElement, Side};
 use crate::model::Element;
@@ -259,24 +259,31 @@ impl System {
             p.fixed_rows_mut::<3>(3).fill(0.0);
         }
         let first = self.rate_count();
-        for (constraint, evaluated) in self.constraints.iter().zip(&self.evaluated) {
-            let (true, Some(number)) = (constraint.owner == owner, constraint.row) else {
+        for place in places_of(&self.constraints, owner) {
+            let (constraint, evaluated) = (&self.constraints[place], &self.evaluated[place]);
+            if constraint.owner != owner {
                 continue;
-            };
+            }
             match constraint.form {
                 Form::Pair { equation, i, j } => {
                     let local = evaluated.local.fixed_rows::<6>(0);
-                    row.add(first + number, p.dot(&local));
+                    let unit = p.dot(&local);
+                    self.multiplier_parts(place, |unknown, slope| {
+                        row.add(first + unknown, unit * slope)
+                    });
                     let [i, j] = [i, j].map(|marker| self.marker(marker));
                     let pair = Pair::new(&i, &j);
                     let stiffness = equation.stiffness(&pair, &self.model.curves).matrix(&pair);
-                    let scale = row.weights.position * multipliers[number];
+                    let scale = row.weights.position * self.multiplier(place, multipliers);
                     self.add_local_row(&p, &[i.body, j.body], &stiffness, scale, row);
                 }
                 Form::Function => {
                     let Some(i) = &reading.i else { continue };
                     let unit = self.gradient_about(i, constraint, evaluated);
-                    row.add(first + number, reading.of(&unit));
+                    let unit = reading.of(&unit);
+                    self.multiplier_parts(place, |unknown, slope| {
+                        row.add(first + unknown, unit * slope)
+                    });
                 }
             }
         }
@@ -313,9 +320,10 @@ impl System {
     fn add_friction(&self, reading: &Reading, place: usize, multipliers: &[f64], row: &mut Row) {
         let p = reading.functional();
         let first = self.rate_count();
-        let change = self.friction_change(place, *row.weights, multipliers, |_, number, change| {
-            row.add(first + number, p.dot(&change.fixed_rows::<6>(0)));
-        });
+        let change =
+            self.friction_change(place, *row.weights, multipliers, |_, unknown, change| {
+                row.add(first + unknown, p.dot(&change.fixed_rows::<6>(0)));
+            });
         if let Some((sides, moving)) = change {
             self.add_local_row(&p, &sides, &moving, 1.0, row);
         }

@@ -40,7 +40,7 @@ impl System {
         for (rate, change) in self.inputs.rates.iter_mut().zip(change) {
             *rate = scale * change;
         }
-        let algebraics = &multipliers[self.rows.len()..];
+        let algebraics = &multipliers[self.rows.len()..self.first_shared()];
         self.inputs.algebraics.copy_from_slice(algebraics);
     }
 

@@ -10,7 +10,8 @@
 //!
 //! System elements add differential states `y` to the velocities and algebraic variables `w` to the
 //! multipliers (`elements.rs`); forces may read them, too. Rates are `(u̇, ẏ)`, and what is called
-//! multipliers below are `(λ, w)`: both are determined by the instant alone and are stepped alike.
+//! multipliers below are `(λ, w)`: both are determined by the instant alone and are stepped alike. Behind
+//! them are the unknowns of reactions that are shared (`sharing.rs`), where there are such.
 //!
 //! [`System::evaluate`] brings everything that depends on time and state alone up to date, and
 //! [`System::assemble`] builds the Newton matrix over `(δu, δy, δλ̂, δŵ)` that all solvers share,
@@ -33,6 +34,7 @@ mod inputs;
 mod newton_matrix;
 mod pairs;
 mod reactions;
+mod sharing;
 mod single_force;
 mod switches;
 mod works;
@@ -50,6 +52,7 @@ use inputs::Inputs;
 pub(crate) use newton_matrix::Weights;
 use pairs::PairGroup;
 use serde::{Deserialize, Serialize};
+use sharing::Sharing;
 pub(crate) use switches::{Course, Reading, SwitchPlace, Units};
 
 /// Which equations the constraint rows of the Newton matrix belong to.
@@ -91,6 +94,8 @@ pub struct System {
     /// Contributions to the reaction of each friction's joint.
     #[serde(skip)]
     reactions: Vec<Vec<Contribution>>,
+    /// How constraints that depend on one another share their reactions.
+    sharing: Sharing,
     /// What is known of each friction's bristles before the instant is solved.
     bristles: Vec<BristlePast>,
     /// Whether the instant is a static one, where some frictions rest.
@@ -193,6 +198,7 @@ impl System {
             pairs: pairs::groups(&constraints, &model.markers, &bodies),
             functions,
             reactions,
+            sharing: Sharing::default(),
             bristles: vec![BristlePast::default(); model.frictions.len()],
             statics: false,
             history,
@@ -261,21 +267,22 @@ impl System {
         self.velocity_count() + self.model.states.len()
     }
 
-    /// Number of multipliers and algebraic variables.
+    /// Number of multipliers, algebraic variables, and unknowns of reactions that are shared.
     #[must_use]
     pub fn multiplier_count(&self) -> usize {
-        self.rows.len() + self.model.algebraics.len()
+        self.first_shared() + self.sharing.count()
     }
 
     /// Whether there are differential states or algebraic variables.
     pub(crate) fn has_elements(&self) -> bool {
-        self.unknown_count() > self.velocity_count() + self.rows.len()
+        !(self.model.states.is_empty() && self.model.algebraics.is_empty())
     }
 
     /// Places of differential states and algebraic variables among the unknowns.
     pub(crate) fn element_places(&self) -> impl Iterator<Item = usize> + use<> {
         let states = self.velocity_count()..self.rate_count();
-        states.chain(self.rate_count() + self.rows.len()..self.unknown_count())
+        let n = self.rate_count();
+        states.chain(n + self.rows.len()..n + self.first_shared())
     }
 
     /// Number of unknowns: rates, then multipliers.
@@ -367,6 +374,7 @@ impl System {
         let before = std::mem::replace(self, fresh);
         self.bodies = before.bodies;
         self.inputs = before.inputs;
+        self.sharing = before.sharing;
         self.set_active(&active);
         self.history = before.history;
         // Friction that was at rest begins anew.
@@ -422,6 +430,7 @@ impl System {
     pub(crate) fn first_multipliers(&self) -> Vec<f64> {
         let mut multipliers = vec![0.0; self.rows.len()];
         multipliers.extend(self.model.algebraics.iter().map(|w| w.start));
+        multipliers.resize(self.multiplier_count(), 0.0);
         multipliers
     }
 

@@ -99,6 +99,7 @@ impl System {
         self.assemble_functions(matrix);
         self.assemble_forces(weights, matrix);
         self.assemble_elements(&weights, multipliers, matrix);
+        self.assemble_sharing(matrix);
     }
 
     /// Rows and columns of general constraints. How their gradients change is left out.
@@ -174,14 +175,15 @@ impl System {
         let n = self.rate_count();
         for place in 0..self.model.frictions.len() {
             let first = self.model.frictions[place].load.first_motion();
-            let change = self.friction_change(place, weights, multipliers, |sides, row, change| {
-                for (side, body) in sides.iter().enumerate() {
-                    let Some(body) = *body else { continue };
-                    for r in first..6 {
-                        matrix.add(6 * body + r, n + row, -change[6 * side + r]);
+            let change =
+                self.friction_change(place, weights, multipliers, |sides, unknown, change| {
+                    for (side, body) in sides.iter().enumerate() {
+                        let Some(body) = *body else { continue };
+                        for r in first..6 {
+                            matrix.add(6 * body + r, n + unknown, -change[6 * side + r]);
+                        }
                     }
-                }
-            });
+                });
             if let Some((sides, moving)) = change {
                 let reach = if first == 3 {
                     Reach::Turns
@@ -194,7 +196,7 @@ impl System {
     }
 
     /// How the generalised forces of a friction on its two bodies change with their local motions,
-    /// weighted as the unknowns are, and (`by_multiplier`, with the row of each) with the
+    /// weighted as the unknowns are, and (`by_multiplier`, with the place of each) with the
     /// multipliers that it follows. `None` where the friction does not act.
     pub(super) fn friction_change(
         &self,
@@ -212,17 +214,17 @@ impl System {
         let turning = slopes.by_reaction.fixed_columns::<3>(3)
             * self.moment_change(place, &i, &j, multipliers);
         for contribution in &self.reactions[place] {
-            let Some(row) = self.constraints[contribution.constraint].row else {
-                continue;
-            };
+            let constraint = contribution.constraint;
             let change: Local = match contribution.share {
                 Share::Force(axis) => slopes.by_reaction.column(axis).into_owned(),
                 Share::Moment => {
-                    let axis = self.moment_axis(contribution.constraint, &j);
+                    let axis = self.moment_axis(constraint, &j);
                     slopes.by_reaction.fixed_columns::<3>(3) * axis
                 }
             };
-            by_multiplier(&sides, row, &change);
+            self.multiplier_parts(constraint, |unknown, slope| {
+                by_multiplier(&sides, unknown, &(slope * change));
+            });
         }
         let moving = weights.velocity * slopes.by_velocity
             + weights.position * (slopes.by_position + turning);

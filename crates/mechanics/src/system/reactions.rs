@@ -18,10 +18,10 @@ impl System {
         let mut wrench = Wrench::default();
         for place in places_of(&self.constraints, owner) {
             let (constraint, evaluated) = (&self.constraints[place], &self.evaluated[place]);
-            let Some(row) = constraint.row else { continue };
+            let multiplier = self.multiplier(place, multipliers);
             match (constraint.form, owner) {
                 (Form::Pair { i, .. }, _) => {
-                    let local = multipliers[row] * evaluated.local;
+                    let local = multiplier * evaluated.local;
                     let force = Vector3::new(local[0], local[1], local[2]);
                     let torque = Vector3::new(local[3], local[4], local[5]);
                     wrench.force += force;
@@ -32,8 +32,8 @@ impl System {
                         continue;
                     };
                     let on_part = self.gradient_about(&self.marker(i), constraint, evaluated);
-                    wrench.force += multipliers[row] * on_part.force;
-                    wrench.torque += multipliers[row] * on_part.torque;
+                    wrench.force += multiplier * on_part.force;
+                    wrench.torque += multiplier * on_part.torque;
                 }
                 (Form::Function, _) => {}
             }
@@ -75,13 +75,11 @@ impl System {
     ) -> (Vector3<f64>, Vector3<f64>) {
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         for contribution in &self.reactions[place] {
-            let Some(row) = self.constraints[contribution.constraint].row else {
-                continue;
-            };
+            let multiplier = self.multiplier(contribution.constraint, multipliers);
             match contribution.share {
-                Share::Force(axis) => force[axis] += multipliers[row],
+                Share::Force(axis) => force[axis] += multiplier,
                 Share::Moment => {
-                    moment += multipliers[row] * self.moment_axis(contribution.constraint, j);
+                    moment += multiplier * self.moment_axis(contribution.constraint, j);
                 }
             }
         }
@@ -111,10 +109,9 @@ impl System {
             else {
                 continue;
             };
-            if let Some(row) = constraint.row {
-                // δ(A_Jᵀ (a × b)) = A_Jᵀ b× a× (δθ_I − δθ_J), as b is fixed to J.
-                by_turn += multipliers[row] * skew(&j.axis(l)) * skew(&i.axis(k));
-            }
+            // δ(A_Jᵀ (a × b)) = A_Jᵀ b× a× (δθ_I − δθ_J), as b is fixed to J.
+            let multiplier = self.multiplier(contribution.constraint, multipliers);
+            by_turn += multiplier * skew(&j.axis(l)) * skew(&i.axis(k));
         }
         let by_turn = j.axes.transpose() * by_turn;
         let mut change = SMatrix::<f64, 3, 12>::zeros();

@@ -12,6 +12,7 @@ mod frictionless;
 mod instants;
 mod integrator_arguments;
 mod invariance;
+mod least_squares;
 mod linearization;
 mod oracle;
 mod redundancy;

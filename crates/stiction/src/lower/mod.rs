@@ -34,7 +34,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use ::dataset::{Code, Dataset, Diagnostic, Function, Header, Severity, Span, Switchable};
 use mechanics::Owner;
-use mechanics::model::{Element, Label, Model};
+use mechanics::model::{Element, Label, Model, Reactions};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -73,21 +73,25 @@ impl Mode {
     }
 }
 
-/// What functions read beside the motion.
+/// What functions read beside the motion, and options that are no part of the dataset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Setting {
     /// The analysis, which MODE gives.
     pub(crate) mode: Mode,
     /// What sensors have kept, which SENVAL gives; zero for the others.
     pub(crate) kept: BTreeMap<u32, f64>,
+    /// Which reactions redundant constraints have: an option of the run.
+    #[serde(default)]
+    pub(crate) reactions: Reactions,
 }
 
 impl From<Mode> for Setting {
-    /// An analysis in which no sensor has kept anything.
+    /// An analysis in which no sensor has kept anything, without options.
     fn from(mode: Mode) -> Self {
         Self {
             mode,
             kept: BTreeMap::new(),
+            reactions: Reactions::OfKept,
         }
     }
 }
@@ -145,6 +149,7 @@ pub(crate) fn lower(
     let gravity = Vector3::from(dataset.gravity.unwrap_or_default());
     let mut model = Model {
         gravity,
+        reactions: setting.reactions,
         ..Model::default()
     };
     lowering.break_circles();
