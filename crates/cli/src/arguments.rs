@@ -119,6 +119,16 @@ pub(crate) struct RunArguments {
     /// docs/integrators.md tells more.
     #[arg(long, value_name = "METHOD", value_parser = method_parser())]
     pub(crate) integrator: Option<Method>,
+    /// Reactions of redundant constraints, which friction follows
+    ///
+    /// kept: those of the equations that are kept; the ones left out have none, which is arbitrary.
+    /// least-squares: the least of all that give the same motion, as of equally stiff joints.
+    /// docs/reactions.md tells more.
+    #[arg(long, value_enum, default_value_t = ReactionsKind::Kept)]
+    pub(crate) reactions: ReactionsKind,
+    /// What least squares divide torques by, in the model's unit of length [default: its own length]
+    #[arg(long, value_name = "L")]
+    pub(crate) reaction_length: Option<f64>,
     /// Tell how accurate the run is, by a second run beside it with a tenth of ERROR
     ///
     /// ERROR bounds the error of each step; over a run errors add up, and some motions magnify them. The
@@ -168,6 +178,23 @@ pub(crate) struct RunArguments {
 /// Reads a method by its name.
 fn method_parser() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| name.parse::<Method>())
+}
+
+/// Reactions of redundant constraints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ReactionsKind {
+    Kept,
+    LeastSquares,
+}
+
+impl ReactionsKind {
+    /// As the library calls it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Kept => "kept",
+            Self::LeastSquares => "least-squares",
+        }
+    }
 }
 
 /// A format of results.

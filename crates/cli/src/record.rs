@@ -70,6 +70,8 @@ fn options(arguments: &RunArguments) -> Value {
         "steps": arguments.steps,
         "dtout": arguments.dtout,
         "error": arguments.error,
+        "reactions": arguments.reactions.name(),
+        "reaction_length": arguments.reaction_length,
         "integrator": arguments.integrator.map(stiction::Method::name),
         "check_accuracy": arguments.check_accuracy,
         "set": arguments.changes,

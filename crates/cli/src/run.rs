@@ -58,8 +58,10 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
     let _claim = claim.map_err(|error| usage(&error.to_string()))?;
     let inputs = record::inputs(&project);
     let mut monitor = Monitor::new(arguments.progress);
+    let reactions = stiction::reactions(arguments.reactions.name(), arguments.reaction_length);
     let options = RunOptions {
         error: arguments.error,
+        reactions: reactions.map_err(|error| usage(&error.to_string()))?,
         method: arguments.integrator,
         checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
         text_results: arguments.formats.contains(&ResultFormat::Res),

@@ -99,10 +99,11 @@ impl Told {
 }
 
 /// Runs a model: with a folder results go there in the formats (`res`, `parquet`, `csv`), without one
-/// there are no files. `method` is the name of a method of integration. `facts` stand in the metadata of tables, `told` is called with time and end
+/// there are no files. `method` is the name of a method of integration, `reactions` how
+/// redundant constraints have theirs, with its length. `facts` stand in the metadata of tables, `told` is called with time and end
 /// now and then.
 #[pyfunction]
-#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, method, check_accuracy, facts, told))]
+#[pyo3(signature = (model, folder, formats, end, steps, dtout, error, method, reactions, check_accuracy, facts, told))]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     model: &Project,
@@ -113,6 +114,7 @@ pub(crate) fn run<'py>(
     dtout: Option<f64>,
     error: Option<f64>,
     method: Option<String>,
+    reactions: (String, Option<f64>),
     check_accuracy: bool,
     facts: Vec<(String, String)>,
     told: Option<Py<PyAny>>,
@@ -124,6 +126,8 @@ pub(crate) fn run<'py>(
     };
     let method = method.map(|name| name.parse::<Method>()).transpose();
     let method = method.map_err(argument_failure)?;
+    let (reactions, length) = reactions;
+    let reactions = stiction::reactions(&reactions, length).map_err(argument_failure)?;
     let mut table = Table::default();
     let ran = py.detach(|| {
         let mut project = model.project.clone();
@@ -139,6 +143,7 @@ pub(crate) fn run<'py>(
         let settings = RunOptions {
             error,
             method,
+            reactions,
             text_results: folder.is_some() && wanted("res"),
             check_accuracy,
             ..RunOptions::default()

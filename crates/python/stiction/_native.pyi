@@ -48,6 +48,7 @@ def run(
     dtout: float | None,
     error: float | None,
     method: str | None,
+    reactions: tuple[str, float | None],
     check_accuracy: bool,
     facts: list[tuple[str, str]],
     told: Callable[[float, float], object] | None,

@@ -244,6 +244,8 @@ class Model:
         steps: int | None = None,
         error: float | None = None,
         integrator: str | None = None,
+        reactions: str = "kept",
+        reaction_length: float | None = None,
         check_accuracy: bool = False,
         output: str | os.PathLike[str] | None = None,
         formats: Sequence[str] = ("res",),
@@ -259,9 +261,12 @@ class Model:
         passes singular positions), "hht", "newmark" (second order, with numerical damping) or "adams"
         (Adams-Moulton up to order 12: about half the steps for smooth motion at tight errors, not for
         bristles at tight errors nor for singular positions); or it is the rest of an INTEGRATOR
-        statement, such as ``"HHT, ERROR=1e-6"``. With `check_accuracy` a second run beside it, with a
-        tenth of the error tolerance, tells how accurate the run is: `Result.accuracy`. With `output`
-        results are written into that folder while it runs, in
+        statement, such as ``"HHT, ERROR=1e-6"``. `reactions` are those of redundant constraints, which
+        friction follows: "kept" (those of the equations that are kept, which is arbitrary) or
+        "least-squares" (the least of all that give the same motion, as of equally stiff joints, torques
+        divided by `reaction_length`, that of the model if not given). With `check_accuracy` a second
+        run beside it, with a tenth of the error tolerance, tells how accurate the run is:
+        `Result.accuracy`. With `output` results are written into that folder while it runs, in
         the `formats` "res" (`.res` and `.req`), "parquet" and "csv" (tables `friction` and
         `states`), and the message file; a folder that has something in it is refused unless
         `overwrite`. `progress` shows how far it is, or is called with time and end.
@@ -292,6 +297,8 @@ class Model:
             "dtout": dtout,
             "error": error,
             "integrator": integrator,
+            "reactions": reactions,
+            "reaction_length": reaction_length,
             "check_accuracy": check_accuracy,
             "changes": list(self._changes),
         }
@@ -314,6 +321,7 @@ class Model:
                 dtout,
                 error,
                 method,
+                (reactions, reaction_length),
                 check_accuracy,
                 [("model", self.checksum), ("options", json.dumps(options))],
                 told,

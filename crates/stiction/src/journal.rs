@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 
 use dataset::{Code, Dataset, Severity};
-use mechanics::model::{Label, Model};
-use mechanics::{Assembly, Formulation, Settings, Sliding, Snapshot, Statistics};
+use mechanics::model::{Label, Model, Reactions};
+use mechanics::{Assembly, Formulation, Settings, Sliding, Snapshot, Statistics, System};
 use results::{DataKind, MessageWriter, StepRow};
 use serde::{Deserialize, Serialize};
 

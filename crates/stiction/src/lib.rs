@@ -71,6 +71,7 @@ mod message;
 mod method;
 mod project;
 mod quantity;
+mod reactions;
 mod recorder;
 mod refusal;
 mod report;
@@ -107,6 +108,7 @@ pub use message::{InputError, Message};
 pub use method::Method;
 pub use project::{Project, hexadecimal};
 pub use quantity::{conversion, unit_of};
+pub use reactions::reactions;
 pub use report::{FrictionReport, friction_table};
 pub use session::{
     FailedCommand, Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch,

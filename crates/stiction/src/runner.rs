@@ -515,9 +515,7 @@ impl<'a> Runner<'a> {
     }
 
     fn log_assembly(&mut self, assembly: &Assembly) -> Result<(), Halt> {
-        let system = self.simulation.system();
-        self.log
-            .assembly(assembly, system.degrees_of_freedom(), system.model())?;
+        self.log.assembly(assembly, self.simulation.system())?;
         Ok(())
     }
 

@@ -10,7 +10,7 @@ use results::Header;
 
 use crate::channels::unit_names;
 use crate::loader::base_name;
-use crate::lower::{Measures, lower};
+use crate::lower::{Measures, Setting, lower};
 use crate::message::Message;
 use crate::project::{Project, SourcedCommand};
 use crate::recorder::ResultFiles;
