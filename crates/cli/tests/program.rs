@@ -342,6 +342,59 @@ SIMULATE/DYNAMIC, DURATION=0.1, DTOUT=0.02
 }
 
 #[test]
+fn reactions_of_redundant_constraints_are_shared_where_asked() {
+    // Two more hinges on the same axis, as far on either side: they carry the same.
+    let twice = PENDULUM.replace(
+        "END",
+        "MARKER/5, PART=1, QP=0, 0.5, 0, REULER=0, 90D, 0\nMARKER/25, PART=2, QP=-1, 0.5, 0, \
+         REULER=0, 90D, 0\nMARKER/6, PART=1, QP=0, -0.5, 0, REULER=0, 90D, 0\nMARKER/26, PART=2, \
+         QP=-1, -0.5, 0, REULER=0, 90D, 0\nJOINT/2, REVOLUTE, I=25, J=5\nJOINT/3, REVOLUTE, I=26, \
+         J=6\nREQUEST/1, F2=JOINT(2,0,2,0)\\F3=JOINT(3,0,2,0)\\\nEND",
+    );
+    let folder = folder("shared", &[("twice.adm", twice.as_str())]);
+    let run = [
+        "run",
+        "twice.adm",
+        "--end",
+        "0.2",
+        "--steps",
+        "4",
+        "--reactions",
+    ];
+    let shared = stiction(&folder, &[&run[..], &["least-squares"]].concat());
+    assert_eq!(code(&shared), 0, "{}", errors(&shared));
+    let text = |file: &str| std::fs::read_to_string(folder.join("twice-run").join(file)).unwrap();
+    let record = json(text("run.json").as_bytes());
+    assert_eq!(record["options"]["reactions"], "least-squares");
+    let log = text("twice.msg");
+    assert!(
+        log.contains("reactions of redundant constraints: the least squares"),
+        "{log}"
+    );
+    assert!(!log.contains("is not unique"), "{log}");
+    let requests = text("twice.req");
+    let last: Vec<f64> = requests
+        .lines()
+        .last()
+        .unwrap()
+        .split_whitespace()
+        .map(|number| number.parse().unwrap())
+        .collect();
+    assert!(
+        last[0].abs() > 0.1 && (last[0] - last[1]).abs() < 1e-5,
+        "{requests}"
+    );
+    let kept = stiction(&folder, &[&run[..], &["kept", "--force"]].concat());
+    assert_eq!(code(&kept), 0, "{}", errors(&kept));
+    assert!(text("twice.msg").contains("is not unique"));
+    // A length is for least squares alone.
+    let more = ["kept", "--force", "--reaction-length", "2"];
+    let refused = stiction(&folder, &[&run[..], &more].concat());
+    assert_eq!(code(&refused), 2);
+    assert!(errors(&refused).contains("least-squares alone"));
+}
+
+#[test]
 fn check_tells_freedoms_and_redundancies_as_json() {
     // A second hinge on the same axis holds nothing new but five equations.
     let twice = PENDULUM.replace(

@@ -138,6 +138,18 @@ def test_how_accurate_a_run_is_is_told_where_it_is_asked_for() -> None:
     assert 0.0 < estimate == 2 * accuracy["distance"]["difference"]
 
 
+def test_reactions_of_redundant_constraints_are_shared_where_asked() -> None:
+    # A second hinge on the same axis, without friction.
+    twice = PENDULUM.replace("END", "JOINT/2, REVOLUTE, I=21, J=1\nEND")
+    model = stiction.loads(twice)
+    kept = model.run(end=0.1, dtout=0.1)
+    shared = model.run(end=0.1, dtout=0.1, reactions="least-squares", reaction_length=0.5)
+    assert shared.success and "divided by 5.0" in shared.log
+    assert "not unique" in kept.log and "not unique" not in shared.log
+    with pytest.raises(stiction.ParameterError, match="kept or least-squares"):
+        model.run(end=0.1, reactions="least")
+
+
 def test_a_run_that_fails_tells_and_keeps_its_results() -> None:
     # The second term goes to infinity at 0.5.
     model = stiction.loads(BLOCK).replace({"pull.function": "10*TIME+1E-3/(0.5-TIME)**4"})

@@ -1,5 +1,6 @@
 //! How accurate runs are, told by a second run with a tenth of ERROR.
 
+use mechanics::model::Reactions;
 use mechanics::rotation::{from_euler_313, log};
 use nalgebra::Vector3;
 use results::ResFile;
@@ -15,6 +16,7 @@ use crate::shared::{GoOn, run_with_log, scratch_folder};
 const CHECKED: RunOptions = RunOptions {
     error: None,
     method: None,
+    reactions: Reactions::OfKept,
     checkpoint: None,
     text_results: true,
     check_accuracy: true,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use mechanics::model::Reactions;
 use results::ResFile;
 use stiction::{
     CheckpointError, Method, Outcome, Progress, Project, ResumeError, RunOptions, Session, Watch,
@@ -25,6 +26,7 @@ impl Watch for StopAfter {
 const SELDOM: RunOptions = RunOptions {
     error: None,
     method: None,
+    reactions: Reactions::OfKept,
     checkpoint: Some(Duration::MAX),
     text_results: true,
     check_accuracy: false,
@@ -33,6 +35,7 @@ const SELDOM: RunOptions = RunOptions {
 const ALWAYS: RunOptions = RunOptions {
     error: None,
     method: None,
+    reactions: Reactions::OfKept,
     checkpoint: Some(Duration::ZERO),
     text_results: true,
     check_accuracy: false,
@@ -94,10 +97,20 @@ pub(crate) fn at_one_go(project: &Project, options: RunOptions) -> Vec<(PathBuf,
 
 /// Runs a project, interrupted again and again after `steps` reports of progress each; returns its
 /// files and how often it was resumed.
-fn in_pieces(project: &Project, steps: usize) -> (Vec<(PathBuf, String)>, usize) {
+fn in_pieces(
+    project: &Project,
+    reactions: Reactions,
+    steps: usize,
+) -> (Vec<(PathBuf, String)>, usize) {
+    let options = RunOptions {
+        reactions,
+        ..SELDOM
+    };
     let folder = scratch_folder();
     let mut session = Session::new(project).unwrap();
-    let mut report = session.run(&folder, SELDOM, &mut StopAfter(steps)).unwrap();
+    let mut report = session
+        .run(&folder, options, &mut StopAfter(steps))
+        .unwrap();
     let mut times = 0;
     while report.outcome == Outcome::Interrupted {
         // What is readable is what was written so far.
@@ -112,7 +125,7 @@ fn in_pieces(project: &Project, steps: usize) -> (Vec<(PathBuf, String)>, usize)
         // Everything but the files is new.
         session = Session::new(project).unwrap();
         report = session
-            .resume(&folder, SELDOM, &mut StopAfter(steps))
+            .resume(&folder, options, &mut StopAfter(steps))
             .unwrap();
         times += 1;
     }
@@ -173,16 +186,25 @@ pub(crate) fn same(pieces: &[(PathBuf, String)], whole: &[(PathBuf, String)], wh
 
 /// A run interrupted after all these numbers of steps, again and again; returns how often.
 fn check(dataset: &str, commands: &str, steps: &[usize]) -> usize {
+    check_with(Reactions::OfKept, dataset, commands, steps)
+}
+
+/// The same with a choice of reactions.
+fn check_with(reactions: Reactions, dataset: &str, commands: &str, steps: &[usize]) -> usize {
     let project = project(dataset, commands);
-    let whole = at_one_go(&project, RunOptions::default());
+    let with = |options| RunOptions {
+        reactions,
+        ..options
+    };
+    let whole = at_one_go(&project, with(RunOptions::default()));
     same(
-        &at_one_go(&project, ALWAYS),
+        &at_one_go(&project, with(ALWAYS)),
         &whole,
         "checkpoints all along",
     );
     let mut resumed = 0;
     for &steps in steps {
-        let (pieces, times) = in_pieces(&project, steps);
+        let (pieces, times) = in_pieces(&project, reactions, steps);
         same(&pieces, &whole, &format!("every {steps} steps"));
         resumed += times;
     }
@@ -207,6 +229,22 @@ fn every_family_of_formulas_goes_on_where_it_was() {
         let resumed = check(&text, commands, &[7, 61]);
         assert!(resumed > 3, "{integrator} {resumed}");
     }
+}
+
+#[test]
+fn shared_reactions_go_on_where_they_were() {
+    // A second hinge and a second guide, which friction depends on.
+    let twice = "MARKER/4, PART=1, QP=0, 0, 1
+MARKER/24, PART=2, QP=0, 0, 1
+JOINT/3, REVOLUTE, I=24, J=4
+MARKER/5, PART=1, QP=0, 0.2, 0.5, REULER=90D, 90D, 0
+MARKER/35, PART=3, QP=0, 0.2, 0.5, REULER=90D, 90D, 0
+JOINT/4, TRANSLATIONAL, I=35, J=5
+FRICTION/1,";
+    let text = MODEL.replace("FRICTION/1,", twice);
+    let shared = Reactions::LeastSquares { length: Some(0.3) };
+    let resumed = check_with(shared, &text, COMMANDS, &[61]);
+    assert!(resumed > 3, "{resumed}");
 }
 
 #[test]
@@ -268,6 +306,15 @@ fn a_checkpoint_of_another_run_is_refused_with_what_differs() {
     assert_eq!(
         another(&first, smooth),
         ["--integrator: not given then, adams now"]
+    );
+    let reactions = Reactions::LeastSquares { length: None };
+    let shared = RunOptions {
+        reactions,
+        ..SELDOM
+    };
+    assert_eq!(
+        another(&first, shared),
+        ["--reactions: kept then, least-squares now"]
     );
 
     let path = folder.join("model.checkpoint");
