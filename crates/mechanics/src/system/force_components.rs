@@ -269,7 +269,7 @@ impl System {
                     let local = evaluated.local.fixed_rows::<6>(0);
                     let unit = p.dot(&local);
                     self.multiplier_parts(place, |unknown, slope| {
-                        row.add(first + unknown, unit * slope)
+                        row.add(first + unknown, unit * slope);
                     });
                     let [i, j] = [i, j].map(|marker| self.marker(marker));
                     let pair = Pair::new(&i, &j);
@@ -282,7 +282,7 @@ impl System {
                     let unit = self.gradient_about(i, constraint, evaluated);
                     let unit = reading.of(&unit);
                     self.multiplier_parts(place, |unknown, slope| {
-                        row.add(first + unknown, unit * slope)
+                        row.add(first + unknown, unit * slope);
                     });
                 }
             }

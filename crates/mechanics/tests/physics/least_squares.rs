@@ -237,7 +237,7 @@ fn friction_holds_an_equilibrium_with_shared_reactions() {
     let found = simulation.find_equilibrium(0.0, &tight);
     found.expect("friction holds it");
     for guide in 0..2 {
-        let values = simulation.snapshot().friction(guide).clone();
+        let values = simulation.snapshot().friction(guide);
         assert!((values.force.z + PULL / 2.0).abs() < 1e-9, "{values:?}");
         let bending = (0.8 * PULL - PULL / 2.0) / 2.0;
         let load = 50.0 + 15.0 * bending;
