@@ -140,7 +140,7 @@ def test_how_accurate_a_run_is_is_told_where_it_is_asked_for() -> None:
 
 def test_reactions_of_redundant_constraints_are_shared_where_asked() -> None:
     # A second hinge on the same axis, without friction.
-    twice = PENDULUM.replace("END", "JOINT/2, REVOLUTE, I=21, J=1\nEND")
+    twice = PENDULUM.replace("\nEND", "\nJOINT/2, REVOLUTE, I=20, J=1\nEND")
     model = stiction.loads(twice)
     kept = model.run(end=0.1, dtout=0.1)
     shared = model.run(end=0.1, dtout=0.1, reactions="least-squares", reaction_length=0.5)
