@@ -177,11 +177,11 @@ impl Simulation {
                         None => why,
                     });
                 }
-                bdf.set_settings(bdf::Settings {
+                let formulas = bdf::Settings {
                     family: Family::BackwardDifferences,
                     ..limits(settings)
-                });
-                self.restart(bdf, dynamics, instant, settings)?;
+                };
+                self.restart(bdf, dynamics, instant, formulas)?;
                 if !crossing.goes_on {
                     blocked = Some(Blocked::new(why, self));
                 }
@@ -226,8 +226,7 @@ impl Simulation {
             // Only now: outputs within the step needed its past.
             if crossing.goes_on && !dynamics.crosses() {
                 crossing.goes_on = false;
-                bdf.set_settings(limits(settings));
-                self.restart(bdf, dynamics, instant, settings)?;
+                self.restart(bdf, dynamics, instant, limits(settings))?;
             }
             if dynamics.is_at_jump() {
                 self.pass_jump(bdf, dynamics, instant, end, settings)?;
@@ -242,18 +241,20 @@ impl Simulation {
         Ok(ending)
     }
 
-    /// Starts the integrator anew from where it is, without its past.
+    /// Starts the integrator anew from where it is, without its past, by these formulas.
     fn restart(
         &mut self,
         bdf: &mut Bdf,
         dynamics: &mut Dynamics,
         instant: &mut Instant,
-        settings: &Settings,
+        formulas: bdf::Settings,
     ) -> Result<(), RunError> {
         self.take(bdf, dynamics, bdf.time(), instant)?;
+        // Other formulas forget the past that the present is taken from.
+        bdf.set_settings(formulas);
         dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
         let slope = self.slope();
-        self.begin(bdf, dynamics, &slope, 1e-3 * settings.longest_step);
+        self.begin(bdf, dynamics, &slope, 1e-3 * formulas.longest_step);
         Ok(())
     }
 
