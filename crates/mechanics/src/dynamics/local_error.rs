@@ -31,21 +31,21 @@ impl Dynamics {
             size: 0.0,
             place: 0,
         };
-        let tolerance = self.tolerance();
+        let (tolerance, allowed) = (self.tolerance(), self.position_tolerance());
         for (k, d) in difference[..places].iter().enumerate() {
             // A rotation is twice the change of its quaternion.
             let unit = if k % POSITIONS < 3 { length } else { 0.5 };
-            largest.take(d.abs() / (unit * tolerance), k);
+            largest.take(d.abs() / (unit * allowed), k);
         }
         let velocities = &difference[places..self.state.motions()];
         let (velocities, allowed): (&[f64], f64) =
             if self.present != Index::Three || self.formulation.tests_velocities() {
-                (velocities, tolerance)
+                (velocities, allowed)
             } else if self.tests_free_velocities() {
                 self.free_velocities(velocities);
-                (&self.right[..velocities.len()], self.error)
+                (&self.right[..velocities.len()], self.motion_error)
             } else {
-                (&[], tolerance)
+                (&[], allowed)
             };
         let scale = rate + self.left_of_velocities;
         for (k, d) in velocities.iter().enumerate() {

@@ -65,8 +65,8 @@ const MULTIPLIER_NODES: usize = Family::Adams.highest_order();
 /// takes off.
 const MULTIPLIER_DEGREE: usize = 3;
 
-/// Part of the error tolerance that the positions of index 3 may use. Its test leaves velocities out,
-/// which lose an order; with this part they, too, stay near the tolerance.
+/// Part of the error tolerance that index 3 may use. Positions say little of velocities, which lose an
+/// order; with this part they, too, stay near the tolerance.
 const INDEX3_SHARE: f64 = 0.1;
 
 /// Largest error of positions past a singular one: the velocities on the other side follow from them,
@@ -112,8 +112,10 @@ pub(crate) struct Dynamics {
     present: Index,
     /// Steps of SI2 that are still to be solved as I3.
     index3_left: usize,
-    /// Error that a step may make, relative to the scales.
+    /// ERROR, relative to the scales,
     pub(crate) error: f64,
+    /// and what a step may make of it in motions.
+    pub(crate) motion_error: f64,
     pub(crate) corrector: Corrector,
     /// Length of the present step,
     step_size: f64,
@@ -179,6 +181,7 @@ impl Dynamics {
             present: Index::StabilisedTwo,
             index3_left: 0,
             error: 1e-6,
+            motion_error: 1e-7,
             corrector: Corrector::default(),
             step_size: 0.0,
             steps: [0.0, f64::INFINITY],
@@ -230,12 +233,22 @@ impl Dynamics {
         self.rate = 0.0;
     }
 
-    /// What the error test of the present step allows.
+    /// What the error test of the present step allows of all but motions: ERROR itself.
     fn tolerance(&self) -> f64 {
+        self.allowed(self.error)
+    }
+
+    /// What it allows of positions.
+    fn position_tolerance(&self) -> f64 {
+        self.allowed(self.motion_error)
+    }
+
+    /// What the present step may use of an error.
+    fn allowed(&self, error: f64) -> f64 {
         match (self.formulation.index(), self.present) {
-            (Index::Three, _) => INDEX3_SHARE * self.error,
-            (_, Index::Three) => self.error.min(CROSSING_ERROR),
-            _ => self.error,
+            (Index::Three, _) => INDEX3_SHARE * error,
+            (_, Index::Three) => error.min(CROSSING_ERROR),
+            _ => error,
         }
     }
 

@@ -92,12 +92,13 @@ impl Dynamics {
         }
         // Near a singular position no iteration comes as close as index 3 wants it elsewhere.
         match self.formulation.index() {
-            Index::One | Index::StabilisedTwo => norm / self.error,
+            Index::One | Index::StabilisedTwo => norm / self.motion_error,
             Index::Three if self.tests_free_velocities() => {
                 let part = INDEX3_NEWTON_TOLERANCE / NEWTON_TOLERANCE;
-                (norm / self.tolerance()).max(part * motions / (self.scales.rate * self.error))
+                let velocities = part * motions / (self.scales.rate * self.motion_error);
+                (norm / self.position_tolerance()).max(velocities)
             }
-            Index::Three => norm / self.tolerance(),
+            Index::Three => norm / self.position_tolerance(),
         }
     }
 
@@ -120,7 +121,7 @@ impl Dynamics {
             Index::One | Index::StabilisedTwo => 0.0,
             Index::Three => {
                 let tolerance = self.loosened(INDEX3_NEWTON_TOLERANCE, step.size);
-                let left = MARGIN * tolerance * self.tolerance();
+                let left = MARGIN * tolerance * self.position_tolerance();
                 left / (step.size * self.scales.rate).powi(2)
             }
         }

@@ -29,7 +29,7 @@ impl Dynamics {
             let moved = self.position_right[k].abs() / unit;
             largest = largest.max(moved.max(self.right[k].abs() / (unit * self.scales.rate)));
         }
-        if largest > EVALUATED_ANEW * self.tolerance() {
+        if largest > EVALUATED_ANEW * self.motion_error {
             self.system.evaluate(&self.state, false);
         }
     }

@@ -110,6 +110,7 @@ impl Simulation {
         self.system.observe_loads(&self.multipliers);
         dynamics.start(&self.system, settings.formulation, self.scales);
         dynamics.error = settings.error;
+        dynamics.motion_error = settings.motion_error();
         dynamics.corrector = settings.corrector;
         dynamics.steps = [settings.shortest_step, settings.longest_step];
         dynamics.observe(&self.state, end);

@@ -280,19 +280,20 @@ fn andrews_mechanism_meets_the_published_end_values() {
     let model = "Andrews' squeezing mechanism, nine redundant equations";
     // Observed 3.4e-9 and 5.0e-9 with SI2, 7.8e-8 and 1.1e-7 with I3, whose tolerance holds for
     // positions only.
-    for (formulation, id, bound) in [
-        (Formulation::Si2, "D01 SI2", 1e-7),
-        (Formulation::I3, "D01 I3", 1e-6),
+    // Beyond the last of each it is rounding that is left.
+    for (formulation, id, bound, tolerances) in [
+        (Formulation::Si2, "D01 SI2", 1e-7, [1e-4, 1e-6, 1e-8]),
+        (Formulation::I3, "D01 I3", 1e-6, [1e-6, 1e-8, 1e-10]),
     ] {
         let mut all = [const { Vec::new() }; 3];
-        for tolerance in [1e-6, 1e-8, 1e-10] {
+        for tolerance in tolerances {
             let settings = settings(formulation, tolerance, 1e-3);
             let errors = andrews_errors(&settings, 0.03, [&q, &rates, &forces]);
             for (all, error) in all.iter_mut().zip(errors) {
                 all.push(error);
             }
         }
-        let model = format!("{model}; error tolerances 1e-6 to 1e-10");
+        let model = format!("{model}; error tolerances {tolerances:?}");
         let case = case(id, &model, "IVP test set, published to 16 digits");
         let rule = Rule::Falling(bound);
         check(&[

@@ -178,11 +178,11 @@ fn a_body_about_its_middle_axis_is_warned_of() {
 /// The ERROR that is recommended brings the error where it should have been.
 #[test]
 fn the_recommended_error_does_what_is_said() {
-    let with = |error: f64| format!("INTEGRATOR/HHT, ERROR={error:e}");
-    let (report, _, _) = checked(PENDULUM, &with(1e-5), 5.0, 50);
+    let with = |error: f64| format!("INTEGRATOR/NEWMARK, ERROR={error:e}");
+    let (report, _, _) = checked(PENDULUM, &with(1e-4), 5.0, 50);
     let accuracy = accuracy(&report);
     let error = accuracy.remedy.expect("it can be extrapolated");
-    assert!(!accuracy.is_accurate() && error < 1e-5, "{error:e}");
+    assert!(!accuracy.is_accurate() && error < 1e-4, "{error:e}");
     let run = |integrator: &str| {
         let project = alone(PENDULUM, integrator, 5.0, 50);
         run_with_log(&project, RunOptions::default()).1
@@ -194,7 +194,7 @@ fn the_recommended_error_does_what_is_said() {
     );
     println!("ERROR {error:e} leaves {distance:.1e} m, {rotation:.1e} rad");
     // The mechanism has a length of a metre.
-    assert!(distance.max(rotation) <= 100.0 * 1e-5);
+    assert!(distance.max(rotation) <= 100.0 * 1e-4);
 }
 
 /// A block that sticks and slips: its error is below the estimate, as is that of its friction.
@@ -255,7 +255,7 @@ fn events_at_other_outputs_are_told() {
     // When it has turned over for the second time, which small errors shift by much.
     let sensor =
         "SENSOR/1, GE, VALUE=1.5, ERROR=1E-6, HALT, FUNCTION=IF(TIME-8: 0, 0, WY(20,1,20))\n";
-    let model = format!("{TUMBLING}{sensor}INTEGRATOR/GSTIFF, SI2, ERROR=1E-3\nEND\n");
+    let model = format!("{TUMBLING}{sensor}INTEGRATOR/GSTIFF, SI2, ERROR=1E-2\nEND\n");
     let project = project(&model, "SIM/DYN, END=20, STEPS=2000\n");
     let (report, _, _) = run_with_log(&project, CHECKED);
     assert_eq!(report.outcome, Outcome::Completed);

@@ -102,14 +102,14 @@ fn order_of_statements_and_ids_do_not_matter() {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/delta-robot/delta.adm");
     let text = std::fs::read_to_string(example).unwrap();
     let (title, mut statements) = statements(&text);
-    let given = run_text(&joined(title, &statements), 0.4, 40, Some(1e-8));
+    let given = run_text(&joined(title, &statements), 0.4, 40, Some(1e-7));
     // A step that is prime to any count of statements visits them all in another order.
     let count = statements.len();
     statements = (0..count)
         .map(|k| statements[(k * 7919 + 13) % count].clone())
         .collect();
     let changed = renumbered(&joined(title, &statements));
-    let changed = run_text(&changed, 0.4, 40, Some(1e-8));
+    let changed = run_text(&changed, 0.4, 40, Some(1e-7));
     let mut worst = 0.0_f64;
     for entity in &given.entities {
         for component in &entity.components {
@@ -134,7 +134,7 @@ fn order_of_statements_and_ids_do_not_matter() {
     }
     println!("shuffled and renumbered: largest difference {worst:.2e} of each component's peak");
     // Sums are taken in another order, so that steps are accepted at other times; what differs is
-    // the integration error, 1e-8 a step, amplified in accelerations by stick and slip.
+    // the integration error, 1e-8 a step (a tenth of ERROR), amplified in accelerations by stick and slip.
     assert!(worst < 1e-4);
 }
 
@@ -224,7 +224,7 @@ MARKER/31, PART=3, REULER=0, 60D, 0
 JOINT/1, REVOLUTE, I=21, J=1
 JOINT/2, REVOLUTE, I=31, J=22
 REQUEST/1, F2=AZ(21, 1)\\F3=AZ(31, 22)
-INTEGRATOR/GSTIFF, SI2, ERROR=1E-6
+INTEGRATOR/GSTIFF, SI2, ERROR=1E-5
 END
 ",
         -9.81 * metre,

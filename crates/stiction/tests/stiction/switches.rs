@@ -115,7 +115,8 @@ fn a_square_wave_is_followed_from_corner_to_corner() {
         2.0,
         97,
         |ran, _| {
-            assert!(ran.error("F3", velocity) < 1e-10);
+            // Velocities of I3 are places with twelve digits divided by short steps.
+            assert!(ran.error("F3", velocity) < 1e-9);
             let counts = ran.report.statistics.steps;
             assert_eq!(counts.rejections, 0);
             // Twenty jumps, and up to as many steps between two as a start takes.
@@ -242,7 +243,7 @@ fn saw_teeth_and_stairs_are_followed() {
         assert!(ran.error("F3", saw) < 1e-3 * error);
         let counts = ran.report.statistics.steps;
         // At a tight error the step that grows behind a jump may be tried once too long.
-        assert!(counts.rejections <= 100 && counts.starts <= 102 && counts.steps < 2000);
+        assert!(counts.rejections <= 100 && counts.starts <= 102 && counts.steps < 2500);
     });
     // Integral of the integer part of 10 t, and of the nearest integer, half a stair before it.
     let stairs = |t: f64| {

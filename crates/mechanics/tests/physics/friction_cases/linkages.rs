@@ -22,7 +22,7 @@ fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {
     run(
         model,
         &outputs,
-        &settings(Formulation::Si2, 1e-10, 0.01),
+        &settings(Formulation::Si2, 1e-9, 0.01),
         |s| {
             let m = s.rotation(0);
             let now: f64 = m[(1, 0)].atan2(m[(0, 0)]);
