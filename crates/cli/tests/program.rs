@@ -495,11 +495,17 @@ fn warnings_are_allowed_and_denied_by_their_code() {
 #[test]
 fn how_accurate_a_run_is_comes_with_it() {
     let folder = folder("accuracy", &[("p.adm", PENDULUM)]);
-    let run = ["run", "p.adm", "--end", "1", "--dtout", "0.01"];
-    let checked =
-        |more: &[&str]| stiction(&folder, &[&run[..], &["--check-accuracy"], more].concat());
+    let run = [
+        "run",
+        "p.adm",
+        "--dtout",
+        "0.01",
+        "--check-accuracy",
+        "--end",
+    ];
+    let checked = |more: &[&str]| stiction(&folder, &[&run[..], more].concat());
     let record = |name: &str| json(&std::fs::read(folder.join(name).join("run.json")).unwrap());
-    let output = checked(&["--error", "1e-7", "-o", "near"]);
+    let output = checked(&["1", "--error", "1e-7", "-o", "near"]);
     assert_eq!(code(&output), 0, "{}", errors(&output));
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
@@ -516,7 +522,7 @@ fn how_accurate_a_run_is_comes_with_it() {
     // A method of first order is far off, which does not change how the program ends.
     let newmark = PENDULUM.replace("END\n", "INTEGRATOR/NEWMARK, ERROR=1E-5\nEND\n");
     std::fs::write(folder.join("p.adm"), newmark).unwrap();
-    let output = checked(&["-o", "far"]);
+    let output = checked(&["4", "-o", "far"]);
     assert_eq!(code(&output), 0, "{}", errors(&output));
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(
@@ -527,7 +533,7 @@ fn how_accurate_a_run_is_comes_with_it() {
     assert_eq!(accuracy["accurate"], false);
     assert!(accuracy["inaccurate_from"]["time"].as_f64().unwrap() > 0.0);
     // Nothing of the second run is in a checkpoint.
-    let output = checked(&["--resume", "--checkpoint", "1", "-o", "far"]);
+    let output = checked(&["4", "--resume", "--checkpoint", "1", "-o", "far"]);
     assert_eq!(code(&output), 2);
 }
 
