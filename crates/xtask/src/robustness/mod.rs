@@ -7,6 +7,9 @@ mod table;
 mod trial;
 
 use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::available_parallelism;
 
 /// What to run.
 #[derive(clap::Args)]
@@ -34,7 +37,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
         println!("{}", table::section(&arguments.table));
         return Ok(());
     }
-    let trials: Vec<trial::Trial> = ALL_SEEDS.map(trial::run).collect();
+    let seeds: Vec<u64> = ALL_SEEDS.collect();
+    let trials = side_by_side(&seeds, |&seed| trial::run(seed));
     let page = format!(
         "# Robustness\n\nWritten by `cargo xtask robustness`; `cargo xtask robustness 17` runs the \
          mechanism of seed 17 by itself. A hundred of the mechanisms run with the tests.\n\n{}{}",
@@ -43,6 +47,32 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     );
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/robustness.md");
     std::fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// What comes of every item, in their order, by as many threads as there are cores.
+fn side_by_side<I: Sync, O: Send>(items: &[I], work: impl Fn(&I) -> O + Sync) -> Vec<O> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::with_capacity(items.len()));
+    let worker = || {
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(place) else {
+                return;
+            };
+            let outcome = work(item);
+            done.lock()
+                .expect("no worker panics")
+                .push((place, outcome));
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..available_parallelism().map_or(1, usize::from) {
+            scope.spawn(worker);
+        }
+    });
+    let mut done = done.into_inner().expect("no worker panics");
+    done.sort_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
 fn range(text: &str) -> Result<std::ops::Range<u64>, String> {

@@ -60,12 +60,23 @@ impl Track {
     /// The largest distance of a body from where `other` has it, as a part of the length of the
     /// mechanism, or its largest rotation from there in radians.
     pub(super) fn distance(&self, other: &Self) -> f64 {
+        let largest = self.compared(other, 1.0).largest();
+        largest.map_or(0.0, |largest| largest.errors())
+    }
+
+    /// Whether the check of accuracy finds it inaccurate for the tolerance `error` by a second run.
+    pub(super) fn is_inaccurate(&self, second: &Self, error: f64) -> bool {
+        let largest = self.compared(second, error).largest();
+        largest.is_some_and(|largest| largest.is_inaccurate())
+    }
+
+    fn compared(&self, other: &Self, error: f64) -> Comparison {
         let mut comparison = Comparison::default();
-        let error = StepError::new(1.0, self.length);
+        let error = StepError::new(error, self.length);
         for (here, there) in self.outputs.iter().zip(&other.outputs) {
             comparison.add(here, there, error);
         }
-        comparison.largest().map_or(0.0, |largest| largest.errors())
+        comparison
     }
 }
 
