@@ -47,6 +47,8 @@ pub(crate) struct Told {
     rough: usize,
     /// Jumps told of that motions have stayed at.
     slidings: usize,
+    /// Time told of from which the equations are stiff.
+    stiff_from: Option<f64>,
 }
 
 /// Redundant equations that are off by this part of the model's length, or as many radians, no
@@ -332,6 +334,17 @@ impl<'p, W: Write> Journal<'p, W> {
             work.residuals,
             work.factorisations
         ))?;
+        let before = std::mem::replace(&mut self.told.stiff_from, statistics.stiff_from);
+        if let Some(time) = statistics
+            .stiff_from
+            .filter(|_| before != statistics.stiff_from)
+        {
+            let text = format!(
+                "from time {time:.6} on by backward differentiation (SI2): the equations are stiff, and \
+                 the formulas of Adams and Moulton take short steps for them"
+            );
+            self.report(Severity::Note, Code::Stiff, None, text)?;
+        }
         let rough = statistics.rough_outputs
             - std::mem::replace(&mut self.told.rough, statistics.rough_outputs);
         if rough == 0 {

@@ -233,6 +233,17 @@ impl Dynamics {
         self.rate = 0.0;
     }
 
+    /// How the equations are stepped now.
+    pub(crate) fn formulation(&self) -> Formulation {
+        self.formulation
+    }
+
+    /// Steps the equations by this formulation from here on.
+    pub(crate) fn take_over(&mut self, formulation: Formulation) {
+        self.formulation = formulation;
+        self.factored = None;
+    }
+
     /// What the error test of the present step allows of all but motions: ERROR itself.
     fn tolerance(&self) -> f64 {
         self.allowed(self.error)

@@ -7,8 +7,9 @@ use numerics::bdf::{self, Bdf, Family};
 use super::blocked::Blocked;
 use super::failure::jammed;
 use super::report::{Cause, Ending, Observer, RunError, Settings, Statistics, StepReport};
+use super::stiffness::Stiffness;
 use super::{Crossing, Engine, Simulation};
-use crate::dynamics::{Dynamics, Index, Sliding, Work};
+use crate::dynamics::{Dynamics, Formulation, Index, Sliding, Work};
 use crate::instant::{Failure, Instant};
 use crate::model::Label;
 use crate::state::POSITIONS;
@@ -35,7 +36,7 @@ impl Simulation {
         let fits = |engine: &Engine| engine.bdf.value().len() == self.state.values.len();
         let mut engine = match kept.filter(fits) {
             Some(engine) => engine,
-            None => Engine::new(self, limits(settings)),
+            None => Engine::new(self, limits(settings, settings.formulation)),
         };
         let started = self.start(&mut engine, end, settings);
         let ending =
@@ -100,9 +101,11 @@ impl Simulation {
             gains,
             bdf,
             crossing,
+            stiffness,
             ..
         } = engine;
         *crossing = Crossing::NONE;
+        *stiffness = Stiffness::default();
         // Changed functions may have left the state off the constraints by rounding.
         self.settle(instant)?;
         let jam = gains.look(&mut self.system, &self.multipliers);
@@ -115,7 +118,7 @@ impl Simulation {
         dynamics.steps = [settings.shortest_step, settings.longest_step];
         dynamics.observe(&self.state, end);
         dynamics.hold_switches(&mut self.system, &self.accelerations, &self.multipliers);
-        bdf.set_settings(limits(settings));
+        bdf.set_settings(limits(settings, settings.formulation));
         let slope = self.slope();
         let first = match settings.first_step {
             Some(first) => first,
@@ -141,6 +144,7 @@ impl Simulation {
             gains,
             bdf,
             crossing,
+            stiffness,
         } = engine;
         let outputs = outputs.into_iter().map(|time| *time.borrow());
         let mut outputs = outputs.peekable();
@@ -157,14 +161,14 @@ impl Simulation {
             let advanced = bdf.advance(dynamics, stop);
             self.scales = dynamics.scales;
             self.statistics = {
-                let rough = self.statistics.rough_outputs;
-                total(before, bdf.statistics(), dynamics.work, rough)
+                let told = &self.statistics;
+                total(before, bdf.statistics(), dynamics.work, told)
             };
             if let Err(error) = advanced {
                 // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
                 // has only positions to meet.
                 let further = bdf.time() > crossing.from;
-                let gives_up = settings.formulation.index() == Index::Three || !further;
+                let gives_up = dynamics.formulation().index() == Index::Three || !further;
                 let mut why = self.run_error(&error, dynamics, bdf);
                 if gives_up {
                     if let Some(jam) = gains.explain(&mut dynamics.system, &dynamics.multipliers) {
@@ -180,7 +184,7 @@ impl Simulation {
                 }
                 let formulas = bdf::Settings {
                     family: Family::BackwardDifferences,
-                    ..limits(settings)
+                    ..limits(settings, dynamics.formulation())
                 };
                 self.restart(bdf, dynamics, instant, formulas)?;
                 if !crossing.goes_on {
@@ -227,10 +231,16 @@ impl Simulation {
             // Only now: outputs within the step needed its past.
             if crossing.goes_on && !dynamics.crosses() {
                 crossing.goes_on = false;
-                self.restart(bdf, dynamics, instant, limits(settings))?;
+                let formulas = limits(settings, dynamics.formulation());
+                self.restart(bdf, dynamics, instant, formulas)?;
             }
             if dynamics.is_at_jump() {
                 self.pass_jump(bdf, dynamics, instant, end, settings)?;
+            } else if stiffness.shows(bdf) {
+                dynamics.take_over(Formulation::Si2);
+                self.statistics.stiff_from = Some(bdf.time());
+                let formulas = limits(settings, Formulation::Si2);
+                self.restart(bdf, dynamics, instant, formulas)?;
             }
             if ending == Ending::Completed && bdf.time() < end && observer.pauses() {
                 ending = Ending::Paused;
@@ -509,9 +519,9 @@ impl Simulation {
 }
 
 /// The limits of the integrator, and its formulas.
-fn limits(settings: &Settings) -> bdf::Settings {
+fn limits(settings: &Settings, formulation: Formulation) -> bdf::Settings {
     bdf::Settings {
-        family: settings.formulation.family(),
+        family: formulation.family(),
         highest_order: settings.highest_order,
         longest_step: settings.longest_step,
         shortest_step: settings.shortest_step,
@@ -519,12 +529,7 @@ fn limits(settings: &Settings) -> bdf::Settings {
     }
 }
 
-fn total(
-    before: &Statistics,
-    steps: bdf::Statistics,
-    work: Work,
-    rough_outputs: usize,
-) -> Statistics {
+fn total(before: &Statistics, steps: bdf::Statistics, work: Work, told: &Statistics) -> Statistics {
     Statistics {
         steps: bdf::Statistics {
             steps: before.steps.steps + steps.steps,
@@ -537,6 +542,6 @@ fn total(
             factorisations: before.work.factorisations + work.factorisations,
             index3_steps: before.work.index3_steps + work.index3_steps,
         },
-        rough_outputs,
+        ..*told
     }
 }

@@ -8,6 +8,7 @@ mod paused;
 mod report;
 mod saved;
 mod statics;
+mod stiffness;
 
 use numerics::bdf::{self, Bdf};
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,7 @@ use crate::model::{Element, Level, Model};
 use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::system::System;
+use stiffness::Stiffness;
 
 /// A model with its state.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -56,6 +58,7 @@ struct Engine {
     gains: GainWatch,
     bdf: Bdf,
     crossing: Crossing,
+    stiffness: Stiffness,
 }
 
 /// Steps of I3 in the place of those of SI2, past an instant that SI2 has not passed.
@@ -84,6 +87,7 @@ impl Engine {
             gains: GainWatch::new(system),
             bdf: Bdf::new(simulation.state.values.len(), limits),
             crossing: Crossing::NONE,
+            stiffness: Stiffness::default(),
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use mechanics::model::Model;
 use mechanics::{
-    Ending, Formulation, Observer, Simulation, Snapshot, StepReport, gravity_energy, kinetic_energy,
+    Ending, Formulation, Observer, Settings, Simulation, Snapshot, StepReport, gravity_energy,
+    kinetic_energy,
 };
 use mechanisms::builder::{Builder, v};
 use nalgebra::Vector3;
 
-use crate::runs::{every, settings};
+use crate::runs::{assembled, every, settings};
 
 /// Largest change of energy at the outputs, and the first redundant equation that did not hold.
 struct Watch {
@@ -150,4 +151,45 @@ fn a_four_bar_that_starts_in_line_says_which_equation_it_lost() {
             "{broken:?}"
         );
     });
+}
+
+#[test]
+fn adams_hands_over_to_index_three_and_takes_over_again() {
+    // The shortest step is longer than Adams needs: at first, and where the mechanism is stretched.
+    for (name, model, unit, error, shortest_step) in [
+        ("four-bar", mechanisms::four_bar_chain(1), 20.0, 5e-7, 1e-4),
+        (
+            "5 four-bars",
+            mechanisms::four_bar_chain(5),
+            82.0,
+            3e-6,
+            5e-5,
+        ),
+        ("change point", change_point(), 60.0, 1e-6, 2e-5),
+    ] {
+        let settings = Settings {
+            highest_order: 12,
+            shortest_step,
+            ..settings(Formulation::Adams, error, 0.06)
+        };
+        let mut simulation = assembled(model);
+        let mut watch = Watch {
+            first: energy(&simulation.snapshot()),
+            change: 0.0,
+            broken: None,
+        };
+        let ending = simulation.run(3.0, every(3.0, 100), &settings, &mut watch);
+        assert_eq!(ending, Ok(Ending::Completed), "{name}");
+        let statistics = simulation.statistics();
+        let crossing = statistics.work.index3_steps;
+        println!(
+            "{name}: {crossing} steps of I3, energy {:.1e}",
+            watch.change
+        );
+        // Every hand-over is ten steps of I3 between two starts.
+        assert!(crossing >= 10 && statistics.steps.starts == 1 + 2 * crossing / 10);
+        // A tenth of ERROR a step in velocities is twice that in the energy.
+        let bound = 0.2 * statistics.steps.steps as f64 * error * unit;
+        assert!(watch.change <= bound, "{name}: {:e}", watch.change);
+    }
 }

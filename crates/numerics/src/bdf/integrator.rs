@@ -147,6 +147,12 @@ impl Bdf {
         new
     }
 
+    /// The limits.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// Replaces the limits, which hold from the next step on, and the family of formulas; another
     /// family needs a start.
     pub fn set_settings(&mut self, settings: Settings) {
@@ -262,7 +268,8 @@ impl Bdf {
             Family::Newmark(_) => (self.order + 1, &self.values),
             Family::Adams => (self.order, &self.slopes),
         };
-        wanted.min(history.count() - 1)
+        let known = history.count().checked_sub(1);
+        wanted.min(known.expect("another family has been started"))
     }
 
     /// Factor `γ` of the formula in the last accepted step; zero before the first.

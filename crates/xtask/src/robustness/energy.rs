@@ -15,19 +15,21 @@ pub(super) struct Balance {
     residual: f64,
     /// Magnitudes by which the terms changed.
     exchanged: Terms,
-    /// Energy that an error of one would be.
+    /// Energy that an error of one would be, at the rate of an error of ERROR.
     unit: f64,
+    error: f64,
     length: f64,
     rate: f64,
 }
 
 impl Balance {
-    pub(super) fn start(snapshot: &Snapshot<'_>, length: f64) -> Self {
+    pub(super) fn start(snapshot: &Snapshot<'_>, error: f64, length: f64) -> Self {
         let mut balance = Self {
             last: terms(snapshot),
             residual: 0.0,
             exchanged: [0.0; 5],
             unit: 0.0,
+            error,
             length,
             rate: 1.0,
         };
@@ -48,11 +50,13 @@ impl Balance {
     }
 
     /// ERROR is a part of the length and of the largest rate so far, for all bodies alike: such an
-    /// error of a body's velocity and place changes its energy by `m |v| L Ω + |Jω| Ω + m g L`.
+    /// error of a body's velocity and place changes its energy by `m |v| L Ω + |Jω| Ω + m g L`. A body at
+    /// rest, too, has the energy of an error of its velocity: none has less than `ERROR L Ω`.
     fn observe(&mut self, snapshot: &Snapshot<'_>) {
         let (model, state) = (snapshot.model(), snapshot.state());
         let mut impulse = 0.0;
         let mut weight = 0.0;
+        let mut mass = 0.0;
         let velocities = state.velocities().chunks_exact(6);
         for (place, (body, u)) in model.bodies.iter().zip(velocities).enumerate() {
             let speed = Vector3::from_column_slice(&u[..3]).norm();
@@ -62,7 +66,9 @@ impl Balance {
             self.rate = self.rate.max(speed / self.length).max(omega.amax());
             impulse += body.mass * speed * self.length + spin;
             weight += body.mass * model.gravity.norm() * self.length;
+            mass += body.mass;
         }
+        impulse += mass * self.error * self.rate * self.length.powi(2);
         self.unit = self.unit.max(impulse * self.rate + weight);
     }
 

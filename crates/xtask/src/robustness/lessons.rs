@@ -46,9 +46,7 @@ const LESSONS: [Lesson; 8] = [
     Lesson {
         words: "the energy is off",
         title: "**Energy beyond the tolerance**",
-        teaches: "With position constraints only (I3, HHT) no error test sees velocities. Strong friction \
-                  that stops a mechanism within its first steps, while it moves by less than ERROR, loses \
-                  its energy uncounted.",
+        teaches: "The run is wrong, and no error test has seen it.",
     },
     Lesson {
         words: "off by",

@@ -121,7 +121,7 @@ fn attempt(simulation: &mut Simulation, end: f64, settings: &mechanics::Settings
         gap: 0.0,
         broken: None,
         strange: None,
-        balance: Balance::start(&simulation.snapshot(), length),
+        balance: Balance::start(&simulation.snapshot(), settings.error, length),
     };
     let outputs = (1..=OUTPUTS).map(|k| end * k as f64 / OUTPUTS as f64);
     let ending = simulation.run(end, outputs, settings, &mut watch);
