@@ -340,8 +340,8 @@ impl<'p, W: Write> Journal<'p, W> {
             .filter(|_| before != statistics.stiff_from)
         {
             let text = format!(
-                "from time {time:.6} on by backward differentiation (SI2): the equations are stiff, and \
-                 the formulas of Adams and Moulton take short steps for them"
+                "from time {time:.6} on by GSTIFF, SI2: the equations are stiff, and steps by the \
+                 integrator that was asked for are short, or have no solution again and again"
             );
             self.report(Severity::Note, Code::Stiff, None, text)?;
         }

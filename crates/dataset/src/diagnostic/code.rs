@@ -200,8 +200,8 @@ codes! {
     StepReactions = "step-reactions", "Lower DAMPING_COEFFICIENT, so that the bristles are passive.";
     /// A function jumps to and fro, because on both sides of the jump it pushes the motion back. The motion is held there, with a value between those of the two sides.
     Chatter = "chatter", "Nothing, where dry friction or a relay is meant; a FRICTION statement, or a STEP of the argument, says the same with a width of your own.";
-    /// Stability, not the motion, keeps the steps of Adams and Moulton's formulas short: bristles, stick, stiff springs, contacts. The run goes on with backward differentiation.
-    Stiff = "stiff", "Use INTEGRATOR/GSTIFF, SI2, which need not find out first.";
+    /// Stiff equations (bristles, stick, stiff springs, contacts) keep the steps of ABAM short, not the motion; or steps of ABAM, HHT, NEWMARK or GSTIFF, I3 have no solution again and again, because bristles are not passive. The run goes on with GSTIFF, SI2.
+    Stiff = "stiff", "Use INTEGRATOR/GSTIFF, SI2, which need not find out first; lower DAMPING_COEFFICIENT of bristles that are not passive.";
     /// LUGRE lets a joint creep under a load that it should hold.
     BristleDrift = "bristle-drift", "Use FORMULATION=ORIGINAL where a joint has to hold.";
     /// The damping of the bristles of LUGRE may give energy back to the motion.

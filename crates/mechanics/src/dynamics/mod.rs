@@ -238,9 +238,10 @@ impl Dynamics {
         self.formulation
     }
 
-    /// Steps the equations by this formulation from here on.
-    pub(crate) fn take_over(&mut self, formulation: Formulation) {
+    /// Steps the equations by this formulation from here on, with what a step may make of ERROR in motions.
+    pub(crate) fn take_over(&mut self, formulation: Formulation, motion_error: f64) {
         self.formulation = formulation;
+        self.motion_error = motion_error;
         self.factored = None;
     }
 

@@ -105,7 +105,7 @@ impl Simulation {
             ..
         } = engine;
         *crossing = Crossing::NONE;
-        *stiffness = Stiffness::default();
+        *stiffness = Stiffness::new(bdf);
         // Changed functions may have left the state off the constraints by rounding.
         self.settle(instant)?;
         let jam = gains.look(&mut self.system, &self.multipliers);
@@ -236,11 +236,14 @@ impl Simulation {
             }
             if dynamics.is_at_jump() {
                 self.pass_jump(bdf, dynamics, instant, end, settings)?;
-            } else if stiffness.shows(bdf) {
-                dynamics.take_over(Formulation::Si2);
+            } else if dynamics.formulation() != Formulation::Si2 && stiffness.shows(bdf) {
+                let stiff = Settings {
+                    formulation: Formulation::Si2,
+                    ..*settings
+                };
+                dynamics.take_over(stiff.formulation, stiff.motion_error());
                 self.statistics.stiff_from = Some(bdf.time());
-                let formulas = limits(settings, Formulation::Si2);
-                self.restart(bdf, dynamics, instant, formulas)?;
+                self.restart(bdf, dynamics, instant, limits(&stiff, stiff.formulation))?;
             }
             if ending == Ending::Completed && bdf.time() < end && observer.pauses() {
                 ending = Ending::Paused;

@@ -58,8 +58,8 @@ pub struct Statistics {
     /// Outputs whose accelerations and reactions are those of the step around them, because bristles
     /// that are not passive left the instant without a solution.
     pub rough_outputs: usize,
-    /// When the equations showed to be stiff last, so that steps of SI2 have taken the place of those of
-    /// Adams.
+    /// When the equations showed last to be too stiff for their formulation, so that SI2 has taken its
+    /// place.
     pub stiff_from: Option<f64>,
 }
 

@@ -73,7 +73,7 @@ pub(super) fn section(trials: &[Trial]) -> String {
          {steps} steps in all. A run is to end well or to say why not. It ends well when every number is \
          finite, every joint is closed to 1e-6 (told by its markers alone), and the balance of energy holds \
          to 100 ERROR, in units of the energy exchanged and of that which an error of one would be (`m |v| L \
-         Ω + |Jω| Ω + m g L` with the length and largest rate that ERROR is a part of). More than 1,000,000 \
+         Ω + |Jω| Ω + m g L` with the length and largest rate that ERROR is a part of). More than 100,000 \
          steps count as hanging.\n\n",
         trials.len(),
         trials.first().map_or(0, |t| t.seed),

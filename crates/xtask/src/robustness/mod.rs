@@ -105,6 +105,18 @@ mod tests {
         assert!(well.count() >= 95);
     }
 
+    /// Mechanisms with stiff bristles, or with such that are not passive, which took 24,000 to 700,000 steps
+    /// by Adams and NEWMARK before SI2 took over.
+    #[test]
+    fn stiff_bristles_take_no_endless_steps() {
+        for seed in [147, 279, 339, 539, 627, 877] {
+            let trial = trial::run(seed);
+            assert!(matches!(trial.outcome, Outcome::Success { .. }), "{trial}");
+            assert!(trial.statistics.steps.steps < 12_000, "{trial}");
+            assert!(trial.statistics.stiff_from.is_some(), "{trial}");
+        }
+    }
+
     /// Nothing moves in seed 573, which has no weight and springs of their free length: what rounding
     /// makes of that with position constraints is no energy that is missing.
     #[test]

@@ -9,7 +9,7 @@ use super::gaps::largest_gap;
 use crate::bench::integrators::{ALL, Integrator};
 
 /// Accepted steps after which a run counts as hanging.
-const MOST_STEPS: usize = 1_000_000;
+const MOST_STEPS: usize = 100_000;
 /// Outputs of a run.
 const OUTPUTS: usize = 20;
 /// Gap of a joint that counts as open, as a part of the length of the mechanism or in radians: outputs
