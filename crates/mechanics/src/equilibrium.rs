@@ -387,7 +387,7 @@ impl System {
             }
             match &friction.law {
                 Law::Original(law) => {
-                    let values = self.friction(place, multipliers).0.values;
+                    let values = self.friction_values(place, multipliers);
                     if law.effect == friction::Effect::Sliding {
                         causes.push(format!(
                             "{label} has EFFECT = SLIDING, which holds nothing at rest"

@@ -137,7 +137,7 @@ impl<'a> Snapshot<'a> {
     /// Friction of a joint.
     #[must_use]
     pub fn friction(&self, friction: usize) -> Values {
-        self.system.friction(friction, self.multipliers).0.values
+        self.system.friction_values(friction, self.multipliers)
     }
 
     /// What a friction did up to the end of an accepted step, the last one or, within a step, one of

@@ -362,17 +362,13 @@ impl Dynamics {
         }
         self.system
             .set_solution(&self.change, 1.0 / step.gamma, &self.multipliers);
+        self.system.take_frictions(&self.multipliers);
         let range = self.state.bristle_range();
         let deflections = &mut self.state.values[range];
-        self.system
-            .write_bristles(&self.multipliers, Some(deflections), None);
+        self.system.write_bristles(Some(deflections), None);
         let rough = self.left_of_reactions(step);
-        self.system.write_bristle_errors(
-            &self.multipliers,
-            self.tolerance(),
-            rough,
-            &mut self.bristle_errors,
-        );
+        self.system
+            .write_bristle_errors(self.tolerance(), rough, &mut self.bristle_errors);
         self.system
             .write_powers(&self.multipliers, &mut self.powers);
         let range = self.state.work_range();

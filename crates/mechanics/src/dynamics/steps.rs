@@ -138,7 +138,7 @@ impl bdf::System for Dynamics {
             }
         }
         self.previous.clone_from(&self.system.history.frictions);
-        self.system.accept_frictions(&self.multipliers);
+        self.system.accept_frictions();
         self.system.remember_angles();
         self.scales.observe(self.state.velocities());
         raise(&mut self.state_scales, self.state.states());

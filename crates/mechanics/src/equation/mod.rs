@@ -211,7 +211,20 @@ impl Equation {
 
     /// Value alone.
     pub(crate) fn value(self, pair: &Pair<'_>, curves: &[Curve]) -> f64 {
-        self.evaluate(pair, curves, &mut Local::zeros())
+        match self {
+            Self::About(axis) => Angle::new(pair, axis).value(),
+            _ => self.evaluate(pair, curves, &mut Local::zeros()),
+        }
+    }
+
+    /// Writes the Jacobian alone.
+    pub(crate) fn differentiate(self, pair: &Pair<'_>, curves: &[Curve], jacobian: &mut Local) {
+        match self {
+            Self::About(axis) => write_moment(&Angle::new(pair, axis).moment(), jacobian),
+            _ => {
+                self.evaluate(pair, curves, jacobian);
+            }
+        }
     }
 
     /// `g̈` where all accelerations are zero: `Ġ u`.
@@ -273,10 +286,15 @@ impl Angular {
 
     /// Writes its Jacobian; returns the value.
     fn write(&self, jacobian: &mut Local) -> f64 {
-        let zero = Vector3::zeros();
-        *jacobian = parts(&zero, &self.moment, &zero, &-self.moment);
+        write_moment(&self.moment, jacobian);
         self.value
     }
+}
+
+/// The Jacobian of what has this derivative by the rotation of I.
+fn write_moment(moment: &Vector3<f64>, jacobian: &mut Local) {
+    let zero = Vector3::zeros();
+    *jacobian = parts(&zero, moment, &zero, &-moment);
 }
 
 fn axes_bias(pair: &Pair<'_>, k: usize, l: usize) -> f64 {
@@ -309,12 +327,21 @@ impl Angle {
     }
 
     fn angular(&self) -> Angular {
+        Angular {
+            value: self.value(),
+            moment: self.moment(),
+        }
+    }
+
+    fn value(&self) -> f64 {
+        self.sign * self.sine.value.atan2(self.cosine.value)
+    }
+
+    /// Derivative by the rotation of I.
+    fn moment(&self) -> Vector3<f64> {
         let (sine, cosine) = (&self.sine, &self.cosine);
         let moment = (cosine.value * sine.moment - sine.value * cosine.moment) / self.r2;
-        Angular {
-            value: self.sign * sine.value.atan2(cosine.value),
-            moment: self.sign * moment,
-        }
+        self.sign * moment
     }
 
     fn bias(&self, pair: &Pair<'_>, axis: Axis) -> f64 {

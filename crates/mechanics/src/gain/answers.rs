@@ -82,7 +82,8 @@ impl Answers {
             if !system.model.is_active(Element::Friction(place)) {
                 continue;
             }
-            let (element, i, j) = system.friction(place, multipliers);
+            let element = system.friction(place, multipliers);
+            let [i, j] = system.friction_frames(place);
             let law = &system.model.frictions[place].law;
             let unused = law.largest_coefficient() / element.steady_coefficient;
             let crossed = before.is_some_and(|before| {
@@ -111,7 +112,7 @@ impl Answers {
                 let slope = match contribution.share {
                     Share::Force(axis) => by_reaction[axis],
                     Share::Moment => {
-                        let axis = system.moment_axis(contribution.constraint, &j);
+                        let axis = system.moment_axis(contribution.constraint, j);
                         by_reaction[3] * axis.x + by_reaction[4] * axis.y + by_reaction[5] * axis.z
                     }
                 };

@@ -7,7 +7,7 @@ use friction::{
 use nalgebra::Vector3;
 
 use super::response::{Joining, Response, respond};
-use super::{Element, LoadAt, Past, Slopes, SurfaceVector, Values};
+use super::{Element, LoadAt, Past, SurfaceVector, Values, Wanted};
 use crate::equation::{Equation, Local, Pair};
 use crate::model::{Friction, FrictionJoint};
 use crate::state::MarkerFrame;
@@ -84,13 +84,13 @@ pub(super) fn one(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
-    slopes: Option<&mut Slopes>,
+    wanted: Wanted<'_>,
 ) -> Element {
     let joining = One {
         friction,
         load: load.load.value,
     };
-    evaluate(friction, past, [equation], load, i, j, &joining, slopes)
+    evaluate(friction, past, [equation], load, i, j, &joining, wanted)
 }
 
 /// Friction along and about the axis of a cylindrical joint.
@@ -101,13 +101,13 @@ pub(super) fn cylindrical(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
-    slopes: Option<&mut Slopes>,
+    wanted: Wanted<'_>,
 ) -> Element {
     let joining = Both {
         friction,
         load: load.load.value,
     };
-    evaluate(friction, past, equations, load, i, j, &joining, slopes)
+    evaluate(friction, past, equations, load, i, j, &joining, wanted)
 }
 
 fn evaluate<const N: usize>(
@@ -118,27 +118,40 @@ fn evaluate<const N: usize>(
     i: &MarkerFrame,
     j: &MarkerFrame,
     joining: &impl Joining<N>,
-    slopes: Option<&mut Slopes>,
+    wanted: Wanted<'_>,
 ) -> Element {
     let arms = equations.map(|equation| equation.arm(friction.load.arm()));
     let pair = Pair::new(i, j);
     let u = pair.velocities();
-    let (mut velocity, mut slip) = ([0.0; N], [0.0; N]);
+    let mut velocity = [0.0; N];
     let mut rows = [Local::zeros(); N];
     for k in 0..N {
-        let value = equations[k].evaluate(&pair, &[], &mut rows[k]);
+        equations[k].differentiate(&pair, &[], &mut rows[k]);
         velocity[k] = arms[k] * rows[k].dot(&u);
-        slip[k] = arms[k] * past.memory.change(equations[k], k, value);
     }
-    let since = past.memory.creep_at(friction, past.time, &slip, &velocity);
+    let slip = || {
+        core::array::from_fn(|k| {
+            let value = equations[k].value(&pair, &[]);
+            arms[k] * past.memory.change(equations[k], k, value)
+        })
+    };
+    let since = past.memory.creep_at(friction, past.time, slip, &velocity);
     let creep = since.map_or([0.0; N], |creep| creep.value);
     let r = respond(friction, past, &velocity, &creep, &load.load, arms, joining);
+    let powers = (0..N).map(|k| -r.resultant.force[k] * velocity[k] / arms[k]);
     let mut element = Element {
-        values: values(friction, equations, &velocity, &creep, &r, load, i, j),
+        load: load.load,
+        regime: r.regime,
+        power: powers.sum(),
         steady_coefficient: r.steady_coefficient,
         load_by_reaction: load.by_reaction,
         ..Element::AT_REST
     };
+    element.velocity[..N].copy_from_slice(&velocity);
+    element.creep[..N].copy_from_slice(&creep);
+    if let Some(values) = wanted.values {
+        *values = self::values(friction, equations, &element, &velocity, &creep, &r, i, j);
+    }
     element.deflection[..N].copy_from_slice(&r.deflection);
     element.deflection_rate[..N].copy_from_slice(&r.deflection_rate);
     // The virtual work of component k is force · δ(value): the arms are in the force.
@@ -164,7 +177,7 @@ fn evaluate<const N: usize>(
         element.force += force[k] * rows[k];
         element.by_load += r.steady_by_load[k] * rows[k];
     }
-    let Some(slopes) = slopes else {
+    let Some(slopes) = wanted.slopes else {
         return element;
     };
     let stiffnesses = equations.map(|equation| equation.stiffness(&pair, &[]));
@@ -195,10 +208,10 @@ fn evaluate<const N: usize>(
 fn values<const N: usize>(
     friction: &Friction,
     equations: [Equation; N],
+    element: &Element,
     velocity: &[f64; N],
     creep: &[f64; N],
     r: &Response<N>,
-    load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
 ) -> Values {
@@ -221,10 +234,6 @@ fn values<const N: usize>(
         vector
     };
     let force = spread(&r.resultant.force);
-    let arms = equations.map(|equation| equation.arm(friction.load.arm()));
-    let power = (0..N)
-        .map(|k| -r.resultant.force[k] * velocity[k] / arms[k])
-        .sum();
     let visible = if r.regime == Regime::Stuck {
         *creep
     } else {
@@ -240,10 +249,10 @@ fn values<const N: usize>(
         deflection: spread(&r.deflection),
         beta: r.beta,
         regime: r.regime,
-        load: load.load,
+        load: element.load,
         causes: r.causes,
         clipped: r.resultant.clipped,
-        power,
+        power: element.power,
         stored: r.stored,
     }
 }

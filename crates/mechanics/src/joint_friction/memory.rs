@@ -62,13 +62,22 @@ pub struct Tally {
     pub not_passive: Option<f64>,
 }
 
-/// The end of an accepted step.
+/// The end of a step.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct StepEnd {
     pub(crate) time: f64,
-    /// Bristle deflection there.
+    /// Velocity of the sliding surfaces there.
+    pub(crate) velocity: [f64; 3],
+    /// Creep, before it is limited.
+    pub(crate) creep: [f64; 3],
+    /// Bristle deflection, and its rate.
     pub(crate) deflection: [f64; 3],
+    pub(crate) deflection_rate: [f64; 3],
+    pub(crate) regime: Regime,
     /// Load at the surfaces, force.
     pub(crate) load: f64,
+    /// Rate at which the friction takes energy out of the motion.
+    pub(crate) power: f64,
 }
 
 impl Memory {
@@ -140,7 +149,6 @@ impl Memory {
     }
 
     /// Takes over an accepted step that ended at the frames of I and J.
-    ///
     pub(crate) fn accept(
         &mut self,
         friction: &Friction,
@@ -148,26 +156,26 @@ impl Memory {
         j: &MarkerFrame,
         end: &StepEnd,
     ) {
-        let velocity = surface_velocity(friction, i, j);
-        let slip = self.slip(friction, i, j);
-        let stuck = friction.law.regime(norm(&velocity)) == Regime::Stuck;
+        let stuck = friction.law.regime(norm(&end.velocity)) == Regime::Stuck;
         let creep = match &friction.law {
-            Law::Original(law) => {
-                let creep = self.creep_at(friction, end.time, &slip, &velocity);
-                law.settle(&velocity, creep.map_or([0.0; 3], |c| c.value))
-            }
+            Law::Original(law) => law.settle(&end.velocity, end.creep),
             Law::LuGre(_) => [0.0; 3],
         };
-        self.count(friction, &velocity, &slip, stuck, &creep, end);
+        let slip = match (self.tally.sticking, stuck, &friction.law) {
+            // Nothing is counted that asks for it.
+            (false, false, _) | (true, true, Law::Original(_)) => [0.0; 3],
+            _ => self.slip(friction, i, j),
+        };
+        self.count(friction, &slip, stuck, &creep, end);
+        self.rotation = j.axes.transpose() * i.axes;
         if !(self.stuck && stuck) {
-            self.anchor = j.axes.transpose() * i.axes;
+            self.anchor = self.rotation;
         }
         self.stuck = stuck;
         self.creep = creep;
         self.deflection = end.deflection;
         self.largest_load = self.largest_load.max(end.load);
-        self.rotation = j.axes.transpose() * i.axes;
-        (self.time, self.velocity) = (end.time, velocity);
+        (self.time, self.velocity) = (end.time, end.velocity);
         for (k, equation) in freedoms(&friction.load).iter().enumerate() {
             let value = equation.value(&Pair::new(i, j), &[]);
             self.displacement[k] += self.change(*equation, k, value);
@@ -178,7 +186,6 @@ impl Memory {
     fn count(
         &mut self,
         friction: &Friction,
-        velocity: &[f64; 3],
         slip: &[f64; 3],
         stuck: bool,
         creep: &[f64; 3],
@@ -189,7 +196,7 @@ impl Memory {
             Law::LuGre(law) => law.stribeck_velocity,
         };
         let size = end.time - self.time;
-        let course = self.course(end.time, slip, velocity);
+        let course = self.course(end.time, slip, &end.velocity);
         let part = course.crossing(size * limit).unwrap_or(0.0);
         let change = end.time - size * (1.0 - part);
         let tally = &mut self.tally;
@@ -217,7 +224,7 @@ impl Memory {
                         tally.drift[k] += slip[k] - (end.deflection[k] - self.deflection[k]);
                     }
                 }
-                let speed = norm(velocity);
+                let speed = norm(&end.velocity);
                 let level = law.stribeck(speed).0 * end.load;
                 if tally.not_passive.is_none() && level > 0.0 && speed > law.passive_speed(level) {
                     tally.not_passive = Some(end.time);
@@ -247,13 +254,14 @@ impl Memory {
         &self,
         friction: &Friction,
         time: f64,
-        slip: &[f64; N],
+        slip: impl FnOnce() -> [f64; N],
         velocity: &[f64; N],
     ) -> Option<Creep<N>> {
         let Law::Original(law) = &friction.law else {
             return None;
         };
         if self.stuck {
+            let slip = slip();
             return Some(Creep {
                 value: std::array::from_fn(|k| self.creep[k] + slip[k]),
                 by_slip: std::array::from_fn(|i| std::array::from_fn(|k| f64::from(i == k))),
@@ -264,7 +272,7 @@ impl Memory {
             return None;
         }
         let size = time - self.time;
-        let course = self.course(time, slip, velocity);
+        let course = self.course(time, &slip(), velocity);
         let first = course.first_creep(size * law.transition_velocity)?;
         Some(Creep {
             value: first.creep,

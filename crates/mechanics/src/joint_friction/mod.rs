@@ -30,7 +30,7 @@ mod response;
 mod spherical;
 mod values;
 
-use friction::Load;
+use friction::{Load, Regime};
 use nalgebra::{ArrayStorage, Matrix3, SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -81,9 +81,16 @@ pub(crate) struct Past<'a> {
 
 /// Friction over the local motions of the joint's markers.
 pub(crate) struct Element {
-    pub(crate) values: Values,
     /// Generalised force on both bodies.
     pub(crate) force: Local,
+    /// Velocity of the sliding surfaces, I against J, by component.
+    pub(crate) velocity: [f64; 3],
+    /// Creep by component as the law had it; zero where the surfaces do not stick.
+    pub(crate) creep: [f64; 3],
+    pub(crate) load: Load,
+    pub(crate) regime: Regime,
+    /// Rate at which the friction takes energy out of the motion.
+    pub(crate) power: f64,
     /// Generalised force by unit of load in steady motion: what decides whether the joint jams.
     pub(crate) by_load: Local,
     /// Magnitude of the coefficient in it; zero at rest without creep, and where a limit is reached.
@@ -98,8 +105,12 @@ pub(crate) struct Element {
 impl Element {
     /// Friction that does not act.
     pub(crate) const AT_REST: Self = Self {
-        values: Values::NONE,
         force: Local::from_array_storage(ArrayStorage([[0.0; 12]])),
+        velocity: [0.0; 3],
+        creep: [0.0; 3],
+        load: Load::NONE,
+        regime: Regime::Stuck,
+        power: 0.0,
         by_load: Local::from_array_storage(ArrayStorage([[0.0; 12]])),
         steady_coefficient: 0.0,
         load_by_reaction: [0.0; 6],
@@ -161,8 +172,16 @@ fn freedoms(joint: &FrictionJoint) -> &'static [Equation] {
     }
 }
 
-/// Friction for a reaction along the axes of J; derivatives go into `slopes`, which are zero, where
-/// they are wanted.
+/// What is written beside the friction itself, where it is wanted.
+#[derive(Default)]
+pub(crate) struct Wanted<'a> {
+    /// Derivatives, zero so far.
+    pub(crate) slopes: Option<&'a mut Slopes>,
+    /// What results read.
+    pub(crate) values: Option<&'a mut Values>,
+}
+
+/// Friction for a reaction along the axes of J.
 pub(crate) fn evaluate(
     friction: &Friction,
     past: &Past<'_>,
@@ -170,17 +189,17 @@ pub(crate) fn evaluate(
     j: &MarkerFrame,
     force: [f64; 3],
     moment: [f64; 3],
-    slopes: Option<&mut Slopes>,
+    wanted: Wanted<'_>,
 ) -> Element {
     let load = load_at(friction, past.memory, i, j, force, moment);
     let equations = freedoms(&friction.load);
     match *equations {
-        [equation] => freedoms::one(friction, past, equation, &load, i, j, slopes),
+        [equation] => freedoms::one(friction, past, equation, &load, i, j, wanted),
         [along, about] => {
             let equations = [along, about];
-            freedoms::cylindrical(friction, past, equations, &load, i, j, slopes)
+            freedoms::cylindrical(friction, past, equations, &load, i, j, wanted)
         }
-        _ => spherical::evaluate(friction, past, &load, i, j, slopes),
+        _ => spherical::evaluate(friction, past, &load, i, j, wanted),
     }
 }
 

@@ -6,7 +6,7 @@ use friction::{Bristles, Coefficient, Regime, Resultant, bristle_resultant, resu
 use nalgebra::{Matrix3, Vector3};
 
 use super::response::{Joining, respond};
-use super::{Element, LoadAt, Past, Slopes, SurfaceVector, Values};
+use super::{Element, LoadAt, Past, SurfaceVector, Values, Wanted};
 use crate::equation::{Local, LocalMatrix};
 use crate::model::Friction;
 use crate::rotation::{log, log_jacobian, skew};
@@ -40,15 +40,16 @@ pub(super) fn evaluate(
     load: &LoadAt,
     i: &MarkerFrame,
     j: &MarkerFrame,
-    slopes: Option<&mut Slopes>,
+    wanted: Wanted<'_>,
 ) -> Element {
     let arm = friction.load.arm();
     let omega = i.omega - j.omega;
     let to_j = j.axes.transpose();
     let velocity = arm * (to_j * omega);
     let memory = past.memory;
-    let theta = log(&(to_j * i.axes * memory.rotation.transpose()));
-    let since = memory.creep_at(friction, past.time, &(arm * theta).into(), &velocity.into());
+    let theta = || log(&(to_j * i.axes * memory.rotation.transpose()));
+    let slip = || (arm * theta()).into();
+    let since = memory.creep_at(friction, past.time, slip, &velocity.into());
     let creep = since.map_or([0.0; 3], |creep| creep.value);
     let joining = Ball {
         friction,
@@ -64,19 +65,31 @@ pub(super) fn evaluate(
         &joining,
     );
     let torque = Vector3::from(r.resultant.force);
-    let stuck = memory.stuck && r.regime == Regime::Stuck;
-    let anchor = if stuck { memory.anchor } else { to_j * i.axes };
-    let printed = |vector: Vector3<f64>| SurfaceVector {
-        translation: Vector3::zeros(),
-        rotation: anchor.tr_mul(&vector),
-    };
-    let visible = if stuck {
-        Vector3::from(creep)
-    } else {
-        Vector3::zeros()
-    };
     let mut element = Element {
-        values: Values {
+        velocity: velocity.into(),
+        creep,
+        load: load.load,
+        regime: r.regime,
+        power: -torque.dot(&velocity) / arm,
+        steady_coefficient: r.steady_coefficient,
+        load_by_reaction: load.by_reaction,
+        deflection: r.deflection,
+        deflection_rate: r.deflection_rate,
+        ..Element::AT_REST
+    };
+    if let Some(values) = wanted.values {
+        let stuck = memory.stuck && r.regime == Regime::Stuck;
+        let anchor = if stuck { memory.anchor } else { to_j * i.axes };
+        let printed = |vector: Vector3<f64>| SurfaceVector {
+            translation: Vector3::zeros(),
+            rotation: anchor.tr_mul(&vector),
+        };
+        let visible = if stuck {
+            Vector3::from(creep)
+        } else {
+            Vector3::zeros()
+        };
+        *values = Values {
             force: Vector3::zeros(),
             torque,
             mu: printed(Vector3::from(r.mu)),
@@ -89,15 +102,10 @@ pub(super) fn evaluate(
             load: load.load,
             causes: r.causes,
             clipped: r.resultant.clipped,
-            power: -torque.dot(&velocity) / arm,
+            power: element.power,
             stored: r.stored,
-        },
-        steady_coefficient: r.steady_coefficient,
-        load_by_reaction: load.by_reaction,
-        deflection: r.deflection,
-        deflection_rate: r.deflection_rate,
-        ..Element::AT_REST
-    };
+        };
+    }
     let torque = j.axes * torque;
     let steady = j.axes * Vector3::from(r.steady_by_load);
     // Torque on I at 3, the opposite on J at 9.
@@ -109,7 +117,7 @@ pub(super) fn evaluate(
         put(&mut element.force, sign * torque);
         put(&mut element.by_load, sign * steady);
     }
-    let Some(slopes) = slopes else {
+    let Some(slopes) = wanted.slopes else {
         return element;
     };
     let matrix = |m: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| m[row][column]);
@@ -118,7 +126,7 @@ pub(super) fn evaluate(
     let (mut by_velocity, mut by_theta_i) = (matrix(r.resultant.by_velocity), Matrix3::zeros());
     if let Some(since) = since {
         // The rotation of I comes in from the left, hence the Jacobian at −θ.
-        let turn = arm * log_jacobian(&-theta);
+        let turn = arm * log_jacobian(&-theta());
         by_theta_i = j.axes * by_creep * matrix(since.by_slip) * turn * to_j;
         by_velocity += by_creep * matrix(since.by_velocity);
     }

@@ -110,7 +110,8 @@ impl Simulation {
         self.settle(instant)?;
         let jam = gains.look(&mut self.system, &self.multipliers);
         self.refuse_jam(jam)?;
-        self.system.observe_loads(&self.multipliers);
+        self.system.take_frictions(&self.multipliers);
+        self.system.observe_loads();
         dynamics.start(&self.system, settings.formulation, self.scales);
         dynamics.error = settings.error;
         dynamics.motion_error = settings.motion_error();
@@ -424,10 +425,10 @@ impl Simulation {
     ) -> Result<(), RunError> {
         dynamics.lend_branches(&self.state, &mut self.system);
         self.settle(instant)?;
+        self.system.take_frictions(&self.multipliers);
         let range = self.state.bristle_range();
         let deflections = &mut self.state.values[range];
-        self.system
-            .write_bristles(&self.multipliers, Some(deflections), None);
+        self.system.write_bristles(Some(deflections), None);
         Ok(())
     }
 
@@ -513,8 +514,8 @@ impl Simulation {
         state.write_position_slopes(&state.values, &mut slope);
         slope[state.rate_range()].copy_from_slice(&self.accelerations);
         let (bristles, works) = (state.bristle_range(), state.work_range());
-        self.system
-            .write_bristles(&self.multipliers, None, Some(&mut slope[bristles]));
+        self.system.take_frictions(&self.multipliers);
+        self.system.write_bristles(None, Some(&mut slope[bristles]));
         self.system
             .write_powers(&self.multipliers, &mut slope[works]);
         slope

@@ -44,7 +44,8 @@ impl Simulation {
         );
         match solved {
             Ok(report) => {
-                self.system.accept_frictions(&self.multipliers);
+                self.system.take_frictions(&self.multipliers);
+                self.system.accept_frictions();
                 self.system.remember_angles();
                 self.accelerations.fill(0.0);
                 Ok(report)

@@ -1,6 +1,8 @@
-//! The bristle deflections of LuGre: states of the integrator that the step equations leave out.
+//! Frictions at the end of a step, and the bristle deflections of LuGre: states of the integrator that
+//! the step equations leave out.
 
 use friction::Regime;
+use nalgebra::Vector3;
 
 use super::System;
 use crate::joint_friction::{BristlePast, StepEnd};
@@ -53,10 +55,28 @@ impl System {
         }
     }
 
-    /// Writes the deflections and their rates at the instant evaluated last, where wanted.
+    /// Takes every friction at the instant evaluated last with its multipliers, for all that is read of
+    /// them there: powers, bristles, and what an accepted step leaves behind.
+    pub(crate) fn take_frictions(&mut self, multipliers: &[f64]) {
+        self.friction_ends.clear();
+        for place in 0..self.model.frictions.len() {
+            let element = self.friction(place, multipliers);
+            self.friction_ends.push(StepEnd {
+                time: self.inputs.time,
+                velocity: element.velocity,
+                creep: element.creep,
+                deflection: element.deflection,
+                deflection_rate: element.deflection_rate,
+                regime: element.regime,
+                load: self.model.frictions[place].surface_load(&element.load),
+                power: element.power,
+            });
+        }
+    }
+
+    /// Writes the deflections and their rates where frictions were taken last, as wanted.
     pub(crate) fn write_bristles(
         &self,
-        multipliers: &[f64],
         deflections: Option<&mut [f64]>,
         rates: Option<&mut [f64]>,
     ) {
@@ -67,41 +87,35 @@ impl System {
             if count == 0 {
                 continue;
             }
-            let element = self.friction(place, multipliers).0;
+            let end = &self.friction_ends[place];
             if let Some(out) = deflections.as_deref_mut() {
-                out[first..first + count].copy_from_slice(&element.deflection[..count]);
+                out[first..first + count].copy_from_slice(&end.deflection[..count]);
             }
             if let Some(out) = rates.as_deref_mut() {
-                out[first..first + count].copy_from_slice(&element.deflection_rate[..count]);
+                out[first..first + count].copy_from_slice(&end.deflection_rate[..count]);
             }
             first += count;
         }
     }
 
-    /// Writes the largest error of the deflections that a step may make at the instant evaluated last,
+    /// Writes the largest error of the deflections that a step may make where frictions were taken last,
     /// for the error `tolerance`: a part of the deflection of the largest load, the larger the less of
     /// its past a step takes over. `rough` is the part of the largest load below which nothing is known
     /// of reactions, and so of deflections.
-    pub(crate) fn write_bristle_errors(
-        &self,
-        multipliers: &[f64],
-        tolerance: f64,
-        rough: f64,
-        errors: &mut [f64],
-    ) {
+    pub(crate) fn write_bristle_errors(&self, tolerance: f64, rough: f64, errors: &mut [f64]) {
         let mut first = 0;
         for (place, friction) in self.model.frictions.iter().enumerate() {
             let count = self.bristles_of(place);
             if let Law::LuGre(law) = &friction.law {
-                let values = self.friction(place, multipliers).0.values;
-                let load = friction.surface_load(&values.load);
+                let end = &self.friction_ends[place];
+                let load = end.load;
                 let level = law.mu_static * load.max(self.history.frictions[place].largest_load);
-                let part = match values.regime {
+                let part = match end.regime {
                     Regime::Stuck => (STICKING_PART * tolerance).max(LEAST_PART),
                     _ => SLIDING_PART,
                 } + rough;
                 // What a step takes over of the past deflection: G/(G + γ s0 v).
-                let speed = values.velocity.norm();
+                let speed = Vector3::from(end.velocity).norm();
                 let present = law.stribeck(speed).0 * load;
                 let pull = self.bristles[place].gamma * law.bristle_stiffness * speed;
                 let kept = if present > 0.0 {
@@ -119,8 +133,8 @@ impl System {
         }
     }
 
-    /// Takes over the present instant as the end of an accepted step.
-    pub(crate) fn accept_frictions(&mut self, multipliers: &[f64]) {
+    /// Takes over the instant at which frictions were taken last as the end of an accepted step.
+    pub(crate) fn accept_frictions(&mut self) {
         for place in 0..self.model.frictions.len() {
             if !self.friction_acts(place) {
                 // What rests begins anew: stuck without creep where the joint stands.
@@ -128,24 +142,17 @@ impl System {
                 self.history.frictions[place] = self.history.frictions[place].renewed(fresh);
                 continue;
             }
-            let (element, i, j) = self.friction(place, multipliers);
-            let friction = &self.model.frictions[place];
-            let end = StepEnd {
-                time: self.inputs.time,
-                deflection: element.deflection,
-                load: friction.surface_load(&element.values.load),
-            };
-            self.history.frictions[place].accept(friction, &i, &j, &end);
+            let [i, j] = self.pairs[self.friction_pairs[place]].frames();
+            let (friction, end) = (&self.model.frictions[place], &self.friction_ends[place]);
+            self.history.frictions[place].accept(friction, i, j, end);
         }
     }
 
-    /// Raises the largest loads so far to those of the instant evaluated last.
-    pub(crate) fn observe_loads(&mut self, multipliers: &[f64]) {
-        for place in 0..self.model.frictions.len() {
-            let load = self.friction(place, multipliers).0.values.load;
-            let load = self.model.frictions[place].surface_load(&load);
-            let memory = &mut self.history.frictions[place];
-            memory.largest_load = memory.largest_load.max(load);
+    /// Raises the largest loads so far to those where frictions were taken last.
+    pub(crate) fn observe_loads(&mut self) {
+        let ends = self.friction_ends.iter();
+        for (memory, end) in self.history.frictions.iter_mut().zip(ends) {
+            memory.largest_load = memory.largest_load.max(end.load);
         }
     }
 

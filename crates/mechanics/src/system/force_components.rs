@@ -152,8 +152,8 @@ impl System {
                 sum
             }
             ForceElement::Friction(place) => {
-                let (element, i, _) = self.friction(place, multipliers);
-                about(&i, &element.force)
+                let [i, _] = self.friction_frames(place);
+                about(i, &self.friction(place, multipliers).force)
             }
         }
     }

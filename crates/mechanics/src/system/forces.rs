@@ -63,8 +63,9 @@ impl System {
             if !self.friction_acts(place) {
                 continue;
             }
-            let (element, i, j) = self.friction(place, multipliers);
-            self.add_local(&[i.body, j.body], &element.force, out);
+            let sides = self.friction_frames(place).map(|frame| frame.body);
+            let element = self.friction(place, multipliers);
+            self.add_local(&sides, &element.force, out);
         }
         let first = self.velocity_count();
         self.state_functions(&mut out[first..]);

@@ -43,7 +43,7 @@ use crate::constraint::{Constraint, Evaluated, Form, Owner, list, places_of};
 use crate::equation::Equation;
 use crate::expression::{Input, Program};
 use crate::force_element::{ForceElement, Side};
-use crate::joint_friction::{BristlePast, Contribution, Memory, Share};
+use crate::joint_friction::{BristlePast, Contribution, Memory, Share, StepEnd};
 use crate::measure::Quantity;
 use crate::model::{Definition, Element, Model};
 use crate::scalar::Jet;
@@ -94,6 +94,12 @@ pub struct System {
     /// Contributions to the reaction of each friction's joint.
     #[serde(skip)]
     reactions: Vec<Vec<Contribution>>,
+    /// The equations of each friction's joint, by their place among the pairs.
+    #[serde(skip)]
+    friction_pairs: Vec<usize>,
+    /// Frictions where they were taken last.
+    #[serde(skip)]
+    friction_ends: Vec<StepEnd>,
     /// How constraints that depend on one another share their reactions.
     sharing: Sharing,
     /// What is known of each friction's bristles before the instant is solved.
@@ -136,6 +142,15 @@ impl System {
             .iter()
             .map(|friction| reaction_of(&constraints, friction.joint))
             .collect();
+        let bodies = vec![BodyFrame::at_rest(); model.bodies.len()];
+        let pairs = pairs::groups(&constraints, &model.markers, &bodies);
+        let friction_pairs = model.frictions.iter().map(|friction| {
+            let joint = &model.joints[friction.joint];
+            let mut groups = pairs.iter();
+            let found = groups.position(|group| group.is_between([joint.i, joint.j]));
+            found.expect("a joint with friction has equations")
+        });
+        let friction_pairs = friction_pairs.collect();
         let mut needed = vec![false; model.measures.len()];
         let functions = model.forces.iter().map(|f| &f.function);
         let functions = functions.chain(model.constraints.iter().map(|c| &c.function));
@@ -175,11 +190,10 @@ impl System {
             frictions: Vec::new(),
             angles: vec![0.0; model.measures.len()],
         };
-        let bodies = vec![BodyFrame::at_rest(); model.bodies.len()];
         let of_functions = |place: &usize| constraints[*place].form == Form::Function;
         let functions = (0..constraints.len()).filter(of_functions).collect();
         let mut system = Self {
-            bodies: bodies.clone(),
+            bodies,
             inputs: Inputs {
                 time: 0.0,
                 measures: vec![0.0; model.measures.len()],
@@ -195,9 +209,11 @@ impl System {
             measure_bodies,
             needed,
             rows: Vec::new(),
-            pairs: pairs::groups(&constraints, &model.markers, &bodies),
+            pairs,
             functions,
             reactions,
+            friction_pairs,
+            friction_ends: Vec::with_capacity(model.frictions.len()),
             sharing: Sharing::default(),
             bristles: vec![BristlePast::default(); model.frictions.len()],
             statics: false,
@@ -229,6 +245,8 @@ impl System {
             pairs,
             functions,
             reactions,
+            friction_pairs,
+            friction_ends,
             acting,
             needed,
             measure_bodies,
@@ -245,6 +263,8 @@ impl System {
         }
         (self.model, self.constraints, self.pairs) = (model, constraints, pairs);
         (self.functions, self.reactions) = (functions, reactions);
+        (self.friction_pairs, self.friction_ends) = (friction_pairs, friction_ends);
+        self.update_pairs();
         (self.acting, self.needed, self.measure_bodies) = (acting, needed, measure_bodies);
         (self.registers, self.adjoints, self.jets) = (registers, adjoints, jets);
     }
@@ -373,6 +393,7 @@ impl System {
         let active: Vec<bool> = self.constraints.iter().map(|c| c.row.is_some()).collect();
         let before = std::mem::replace(self, fresh);
         self.bodies = before.bodies;
+        self.update_pairs();
         self.inputs = before.inputs;
         self.sharing = before.sharing;
         self.set_active(&active);

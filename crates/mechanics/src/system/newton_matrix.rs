@@ -7,7 +7,7 @@ use super::single_force::{ByRotation, direction, direction_by_frame, direction_s
 use super::{Rows, System};
 use crate::constraint::Form;
 use crate::equation::{Local, LocalMatrix, Reach};
-use crate::joint_friction::{Share, Slopes};
+use crate::joint_friction::{Share, Slopes, Wanted};
 use crate::model::Element;
 use crate::rotation::skew;
 
@@ -179,8 +179,9 @@ impl System {
                 self.friction_change(place, weights, multipliers, |sides, unknown, change| {
                     for (side, body) in sides.iter().enumerate() {
                         let Some(body) = *body else { continue };
-                        for r in first..6 {
-                            matrix.add(6 * body + r, n + unknown, -change[6 * side + r]);
+                        for r in (first..6).step_by(3) {
+                            let column = std::array::from_fn(|k| [-change[6 * side + r + k]]);
+                            matrix.add_block::<3, 1>(6 * body + r, n + unknown, &column);
                         }
                     }
                 });
@@ -209,16 +210,19 @@ impl System {
             return None;
         }
         let mut slopes = Slopes::zero();
-        let (_, i, j) = self.friction_with_slopes(place, multipliers, &mut slopes);
+        let wanted = Wanted {
+            slopes: Some(&mut slopes),
+            ..Wanted::default()
+        };
+        self.evaluate_friction(place, multipliers, wanted);
+        let [i, j] = self.friction_frames(place);
         let sides = [i.body, j.body];
-        let turning = slopes.by_reaction.fixed_columns::<3>(3)
-            * self.moment_change(place, &i, &j, multipliers);
         for contribution in &self.reactions[place] {
             let constraint = contribution.constraint;
             let change: Local = match contribution.share {
                 Share::Force(axis) => slopes.by_reaction.column(axis).into_owned(),
                 Share::Moment => {
-                    let axis = self.moment_axis(constraint, &j);
+                    let axis = self.moment_axis(constraint, j);
                     slopes.by_reaction.fixed_columns::<3>(3) * axis
                 }
             };
@@ -226,8 +230,21 @@ impl System {
                 by_multiplier(&sides, unknown, &(slope * change));
             });
         }
-        let moving = weights.velocity * slopes.by_velocity
-            + weights.position * (slopes.by_position + turning);
+        if weights.velocity == 0.0 && weights.position == 0.0 {
+            return Some((sides, LocalMatrix::zeros()));
+        }
+        if let Some(by_turn) = self.moment_change(place, i, j, multipliers) {
+            for part in 0..4 {
+                let by_moment = slopes.by_reaction.fixed_view::<3, 3>(3 * part, 3);
+                let change = by_moment * by_turn;
+                let by_position = &mut slopes.by_position;
+                let mut by_i = by_position.fixed_view_mut::<3, 3>(3 * part, 3);
+                by_i += change;
+                let mut by_j = by_position.fixed_view_mut::<3, 3>(3 * part, 9);
+                by_j -= change;
+            }
+        }
+        let moving = weights.velocity * slopes.by_velocity + weights.position * slopes.by_position;
         Some((sides, moving))
     }
 

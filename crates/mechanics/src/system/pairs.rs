@@ -21,6 +21,25 @@ pub(super) struct PairGroup {
     frames: [MarkerFrame; 2],
 }
 
+impl PairGroup {
+    /// Whether it is of the equations between these markers.
+    pub(super) fn is_between(&self, markers: [usize; 2]) -> bool {
+        self.markers == markers
+    }
+
+    /// Brings the frames up to date with the bodies.
+    fn update(&mut self, markers: &[Marker], bodies: &[BodyFrame]) {
+        for (frame, &marker) in self.frames.iter_mut().zip(&self.markers) {
+            frame.update(&markers[marker], bodies);
+        }
+    }
+
+    /// The frames of its markers, I and J.
+    pub(super) fn frames(&self) -> [&MarkerFrame; 2] {
+        self.frames.each_ref()
+    }
+}
+
 /// The groups of a list of constraints, on bodies that are yet to be evaluated.
 pub(super) fn groups(
     constraints: &[Constraint],
@@ -45,16 +64,21 @@ pub(super) fn groups(
 }
 
 impl System {
+    /// Brings the frames of all groups up to date with the bodies.
+    pub(super) fn update_pairs(&mut self) {
+        for group in &mut self.pairs {
+            group.update(&self.model.markers, &self.bodies);
+        }
+    }
+
     /// Brings the equations of a group up to date with the bodies.
     pub(super) fn evaluate_pairs(&mut self, group: usize) {
+        self.pairs[group].update(&self.model.markers, &self.bodies);
         let PairGroup {
-            markers,
             constraints,
             frames,
-        } = &mut self.pairs[group];
-        for (frame, &marker) in frames.iter_mut().zip(&*markers) {
-            frame.update(&self.model.markers[marker], &self.bodies);
-        }
+            ..
+        } = &self.pairs[group];
         let pair = Pair::new(&frames[0], &frames[1]);
         let sides = [pair.i.body, pair.j.body];
         let turns = sides.map(|body| body.is_none_or(|body| self.model.bodies[body].rotates));

@@ -1,11 +1,11 @@
 //! Reactions from multipliers, and the friction that they cause.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::System;
 use crate::constraint::{Constraint, Evaluated, Form, Owner, places_of};
 use crate::equation::Equation;
-use crate::joint_friction::{self, Element, Past, Share, Slopes};
+use crate::joint_friction::{self, Element, Past, Share, Values, Wanted};
 use crate::model::Element as ModelElement;
 use crate::rotation::skew;
 use crate::snapshot::Wrench;
@@ -91,15 +91,16 @@ impl System {
         j.axes.transpose() * self.evaluated[constraint].local.fixed_rows::<3>(3)
     }
 
-    /// Change of the reaction moment along the axes of J with the local motions.
+    /// Change of the reaction moment along the axes of J with the rotation of I, of which that with the
+    /// rotation of J is the opposite; none where no equation makes a moment.
     pub(super) fn moment_change(
         &self,
         place: usize,
         i: &MarkerFrame,
         j: &MarkerFrame,
         multipliers: &[f64],
-    ) -> SMatrix<f64, 3, 12> {
-        let mut by_turn = Matrix3::zeros();
+    ) -> Option<Matrix3<f64>> {
+        let mut by_turn: Option<Matrix3<f64>> = None;
         for contribution in &self.reactions[place] {
             let constraint = &self.constraints[contribution.constraint];
             let Form::Pair {
@@ -111,13 +112,10 @@ impl System {
             };
             // δ(A_Jᵀ (a × b)) = A_Jᵀ b× a× (δθ_I − δθ_J), as b is fixed to J.
             let multiplier = self.multiplier(contribution.constraint, multipliers);
-            by_turn += multiplier * skew(&j.axis(l)) * skew(&i.axis(k));
+            let one = multiplier * skew(&j.axis(l)) * skew(&i.axis(k));
+            by_turn = Some(by_turn.map_or(one, |sum| sum + one));
         }
-        let by_turn = j.axes.transpose() * by_turn;
-        let mut change = SMatrix::<f64, 3, 12>::zeros();
-        change.fixed_columns_mut::<3>(3).copy_from(&by_turn);
-        change.fixed_columns_mut::<3>(9).copy_from(&-by_turn);
-        change
+        by_turn.map(|by_turn| j.axes.tr_mul(&by_turn))
     }
 
     /// Whether a friction acts at the present kind of instant.
@@ -126,45 +124,45 @@ impl System {
         !rests && self.model.is_active(ModelElement::Friction(place))
     }
 
-    /// Friction element `place`, and the frames of its joint's markers.
-    pub(crate) fn friction(
-        &self,
-        place: usize,
-        multipliers: &[f64],
-    ) -> (Element, MarkerFrame, MarkerFrame) {
-        self.evaluate_friction(place, multipliers, None)
+    /// The frames of the markers of a friction's joint as they were evaluated last.
+    pub(crate) fn friction_frames(&self, place: usize) -> [&MarkerFrame; 2] {
+        self.pairs[self.friction_pairs[place]].frames()
     }
 
-    /// The same with derivatives by velocity, position and reaction.
-    pub(super) fn friction_with_slopes(
-        &self,
-        place: usize,
-        multipliers: &[f64],
-        slopes: &mut Slopes,
-    ) -> (Element, MarkerFrame, MarkerFrame) {
-        self.evaluate_friction(place, multipliers, Some(slopes))
+    /// Friction element `place`.
+    pub(crate) fn friction(&self, place: usize, multipliers: &[f64]) -> Element {
+        self.evaluate_friction(place, multipliers, Wanted::default())
     }
 
-    fn evaluate_friction(
+    /// What results read of a friction.
+    pub(crate) fn friction_values(&self, place: usize, multipliers: &[f64]) -> Values {
+        let mut values = Values::NONE;
+        let wanted = Wanted {
+            values: Some(&mut values),
+            ..Wanted::default()
+        };
+        self.evaluate_friction(place, multipliers, wanted);
+        values
+    }
+
+    pub(super) fn evaluate_friction(
         &self,
         place: usize,
         multipliers: &[f64],
-        slopes: Option<&mut Slopes>,
-    ) -> (Element, MarkerFrame, MarkerFrame) {
-        let friction = &self.model.frictions[place];
-        let joint = &self.model.joints[friction.joint];
-        let (i, j) = (self.marker(joint.i), self.marker(joint.j));
+        wanted: Wanted<'_>,
+    ) -> Element {
         if !self.friction_acts(place) {
-            return (Element::AT_REST, i, j);
+            return Element::AT_REST;
         }
-        let (force, moment) = self.reaction(place, &j, multipliers);
+        let [i, j] = self.friction_frames(place);
+        let (force, moment) = self.reaction(place, j, multipliers);
         let past = Past {
             memory: &self.history.frictions[place],
             bristles: self.bristle_past(place),
             time: self.inputs.time,
         };
         let (force, moment) = (force.into(), moment.into());
-        let element = joint_friction::evaluate(friction, &past, &i, &j, force, moment, slopes);
-        (element, i, j)
+        let friction = &self.model.frictions[place];
+        joint_friction::evaluate(friction, &past, i, j, force, moment, wanted)
     }
 }

@@ -12,12 +12,13 @@ impl System {
         self.model.frictions.len() + 2
     }
 
-    /// Powers at the instant evaluated last: what each friction takes out, then what forces and what
-    /// motions (and general constraints that move with time) put in. Weight has its energy instead.
+    /// Powers at the instant that frictions were taken at: what each friction takes out, then what forces
+    /// and what motions (and general constraints that move with time) put in. Weight has its energy
+    /// instead.
     pub(crate) fn write_powers(&mut self, multipliers: &[f64], powers: &mut [f64]) {
         let frictions = self.model.frictions.len();
-        for place in 0..frictions {
-            powers[place] = self.friction(place, multipliers).0.values.power;
+        for (power, end) in powers.iter_mut().zip(&self.friction_ends) {
+            *power = end.power;
         }
         let mut forces = 0.0;
         for place in 0..self.model.forces.len() {
