@@ -4,6 +4,7 @@ use numerics::linear::{FrontalLu, Matrix, Singular};
 use serde::{Deserialize, Serialize};
 
 use crate::constraint::Owner;
+use crate::dynamics::Scales;
 use crate::model::Label;
 use crate::state::State;
 use crate::system::{Rows, System, Weights};
@@ -76,6 +77,8 @@ enum Place {
 pub(crate) struct Instant {
     matrix: Matrix,
     factors: FrontalLu,
+    /// Whether the factors are those of an instant as near as the guess of its solution is.
+    fits: bool,
     right: Vec<f64>,
     force: Vec<f64>,
     momentum: Vec<f64>,
@@ -91,6 +94,7 @@ impl Instant {
         Self {
             matrix: Matrix::new(size),
             factors: FrontalLu::new(system.elimination_groups()),
+            fits: false,
             right: vec![0.0; size],
             force: vec![0.0; n],
             momentum: vec![0.0; n],
@@ -98,6 +102,11 @@ impl Instant {
             guess: vec![0.0; system.multiplier_count()],
             guessed_accelerations: vec![0.0; n],
         }
+    }
+
+    /// Leaves the factors of the instant solved last, for the next one is another.
+    pub(crate) fn forget(&mut self) {
+        self.fits = false;
     }
 
     /// Accelerations `u̇` and multipliers `λ` at `state`, with friction, reactions and system elements
@@ -118,7 +127,7 @@ impl Instant {
         let mut last = f64::INFINITY;
         let mut last_elements = f64::INFINITY;
         let mut worst = 0;
-        let mut renew = true;
+        let mut renew = !std::mem::take(&mut self.fits);
         for _ in 0..ITERATIONS {
             self.residual(system, accelerations, multipliers)?;
             if renew {
@@ -157,6 +166,7 @@ impl Instant {
             let rounding = change >= 0.5 * last && change <= 1e-9 * size;
             let settled = solved || change <= 1e-13 * size || rounding;
             if settled && elements.settled(last_elements) {
+                self.fits = true;
                 return Ok(());
             }
             // A matrix of a guess that was far off says nothing of how friction follows the reactions: with
@@ -260,17 +270,27 @@ impl Instant {
     }
 
     /// Moves `state` onto the position constraints and then its velocities onto the velocity
-    /// constraints, by the least change in the metric of the mass matrix.
+    /// constraints, by the least change in the metric of the mass matrix. Leaves a state that lacks
+    /// nothing but rounding as it is.
     pub(crate) fn project(
         &mut self,
         system: &mut System,
         state: &mut State,
         multipliers: &[f64],
-        length: f64,
+        scales: &Scales,
     ) -> Result<(), Failure> {
         let n = system.rate_count();
         let moving = system.velocity_count();
+        let rounding = 1e-14 * scales.length;
         system.evaluate(state, false);
+        let rates = &mut self.right[n..n + system.row_count()];
+        system.velocity_lacks(state.velocities(), rates);
+        let meets = |place: &usize| system.evaluated[*place].error.abs() <= rounding;
+        let stays = |lack: &f64| lack.abs() <= rounding * scales.rate;
+        if system.rows.iter().all(meets) && rates.iter().all(stays) {
+            return Ok(());
+        }
+        self.fits = false;
         self.factor(system, multipliers)?;
         // One matrix serves: the corrections are of the size of the integration error.
         for _ in 0..10 {
@@ -280,7 +300,7 @@ impl Instant {
                 self.right[n + row] = -system.evaluated[place].error;
                 error = error.max(system.evaluated[place].error.abs());
             }
-            if error <= 1e-14 * length {
+            if error <= rounding {
                 break;
             }
             self.factors.solve(&mut self.right);
@@ -293,6 +313,8 @@ impl Instant {
         for (u, change) in state.velocities_mut().iter_mut().zip(&self.right[..n]) {
             *u += change;
         }
+        // Reactions start from those that it was built with.
+        self.fits = true;
         Ok(())
     }
 }

@@ -58,7 +58,7 @@ impl std::fmt::Display for Label {
 }
 
 /// A rigid body, or a point mass.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// How it is called.
     pub label: Label,
@@ -86,7 +86,7 @@ pub struct Body {
 }
 
 /// A frame fixed to a body or to ground.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Marker {
     /// Id in the dataset.
     pub id: u32,
@@ -167,7 +167,7 @@ pub struct JointStart {
 }
 
 /// A joint or joint primitive between two markers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// How it is called.
     pub label: Label,
@@ -223,7 +223,7 @@ pub struct Motion {
 }
 
 /// A constraint `function = 0` on displacements and time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GeneralConstraint {
     /// How it is called.
     pub label: Label,
@@ -349,7 +349,7 @@ impl FrictionJoint {
 }
 
 /// Friction in a joint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     /// How it is called.
     pub label: Label,
@@ -450,6 +450,19 @@ pub struct Model {
 }
 
 impl Model {
+    /// Whether bodies, constraints and frictions are those of another model. Motions may differ in what
+    /// they prescribe, and forces and system elements in all.
+    pub(crate) fn is_mechanism_of(&self, other: &Self) -> bool {
+        fn parts(model: &Model) -> impl PartialEq + '_ {
+            (
+                (&model.bodies, &model.markers, &model.joints, &model.curves),
+                (&model.constraints, &model.frictions),
+                (&model.reactions, &model.inactive),
+            )
+        }
+        parts(self) == parts(other)
+    }
+
     /// Whether an element acts.
     #[must_use]
     pub fn is_active(&self, element: Element) -> bool {

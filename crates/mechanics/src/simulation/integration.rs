@@ -14,6 +14,9 @@ use crate::instant::{Failure, Instant};
 use crate::model::Label;
 use crate::state::POSITIONS;
 
+/// Part of the reactions by which they may change where a run goes on from the end of another, for gains
+/// of friction to be looked at as after a step.
+const LIKE_A_STEP: f64 = 0.1;
 /// Change of the place of a body where a function jumps, in units of the error: what finding the jump
 /// leaves is below it.
 const PLACE_JUMP: f64 = 10.0;
@@ -31,14 +34,16 @@ impl Simulation {
         settings: &Settings,
         observer: &mut impl Observer,
     ) -> Result<Ending, RunError> {
-        self.state.set_shares(self.system.switch_count());
         let kept = self.engine.take();
+        let left = kept.as_ref().and_then(|engine| engine.left.as_ref());
+        let goes_on = left == Some(&self.state);
+        self.state.set_shares(self.system.switch_count());
         let fits = |engine: &Engine| engine.bdf.value().len() == self.state.values.len();
         let mut engine = match kept.filter(fits) {
             Some(engine) => engine,
             None => Engine::new(self, limits(settings, settings.formulation)),
         };
-        let started = self.start(&mut engine, end, settings);
+        let started = self.start(&mut engine, goes_on, end, settings);
         let ending =
             started.and_then(|()| self.integrate(&mut engine, end, outputs, settings, observer));
         self.leave(engine, ending)
@@ -84,14 +89,17 @@ impl Simulation {
                 self.slidings.push(sliding);
             }
         }
+        engine.left = ending.is_ok().then(|| self.state.clone());
         self.engine = Some(engine);
         ending
     }
 
-    /// Begins a run from the present state.
+    /// Begins a run from the present state; `goes_on` where the last run of the same mechanism ended
+    /// there.
     fn start(
         &mut self,
         engine: &mut Engine,
+        goes_on: bool,
         end: f64,
         settings: &Settings,
     ) -> Result<(), RunError> {
@@ -106,9 +114,18 @@ impl Simulation {
         } = engine;
         *crossing = Crossing::NONE;
         *stiffness = Stiffness::new(bdf);
+        if !goes_on {
+            instant.forget();
+        }
         // Changed functions may have left the state off the constraints by rounding.
         self.settle(instant)?;
-        let jam = gains.look(&mut self.system, &self.multipliers);
+        let like_a_step = goes_on && self.changed_reactions(instant) <= LIKE_A_STEP;
+        let (system, multipliers) = (&mut self.system, &self.multipliers);
+        let jam = if like_a_step {
+            gains.look_seldom(system, multipliers, &dynamics.previous)
+        } else {
+            gains.look(system, multipliers)
+        };
         self.refuse_jam(jam)?;
         self.system.take_frictions(&self.multipliers);
         self.system.observe_loads();
@@ -146,6 +163,7 @@ impl Simulation {
             bdf,
             crossing,
             stiffness,
+            ..
         } = engine;
         let outputs = outputs.into_iter().map(|time| *time.borrow());
         let mut outputs = outputs.peekable();
@@ -288,6 +306,7 @@ impl Simulation {
         let range = self.state.share_range();
         self.state.values[range].copy_from_slice(&shares);
         let before = self.state.values.clone();
+        instant.forget();
         self.solve_within_step(dynamics, instant)?;
         if let Some(element) = dynamics.turned_constraint() {
             self.refuse_jump_of_place(element, &before, PLACE_JUMP * settings.error)?;
@@ -350,7 +369,7 @@ impl Simulation {
                 &mut self.system,
                 &mut self.state,
                 &self.multipliers,
-                self.scales.length,
+                &self.scales,
             )
             .and_then(|()| {
                 instant.accelerations(
@@ -379,6 +398,14 @@ impl Simulation {
         Ok(())
     }
 
+    /// How much the last solution of the instant has changed the multipliers, as a part of the largest.
+    fn changed_reactions(&self, instant: &Instant) -> f64 {
+        let pairs = self.multipliers.iter().zip(instant.guess());
+        let change = pairs.fold(0.0_f64, |most, (now, guess)| most.max((now - guess).abs()));
+        let largest = self.multipliers.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        change / largest.max(f64::MIN_POSITIVE)
+    }
+
     /// State, accelerations and reactions at `time` within the last accepted step.
     fn take(
         &mut self,
@@ -388,6 +415,7 @@ impl Simulation {
         instant: &mut Instant,
     ) -> Result<(), RunError> {
         self.interpolate(bdf, dynamics, time);
+        instant.forget();
         self.solve_within_step(dynamics, instant)
     }
 
@@ -450,7 +478,7 @@ impl Simulation {
     /// A first step whose error by the formula of order one is half the tolerance, from the second
     /// derivative; that of the velocities comes from the accelerations a little later.
     fn first_step(
-        &self,
+        &mut self,
         instant: &mut Instant,
         dynamics: &mut Dynamics,
         slope: &[f64],
@@ -471,40 +499,51 @@ impl Simulation {
     /// Error of a step of one by the formula of order one, in units of the tolerance: half the
     /// second derivative, from the slope a time `ahead`. None where that cannot be found.
     fn curvature_error(
-        &self,
+        &mut self,
         instant: &mut Instant,
         dynamics: &mut Dynamics,
         slope: &[f64],
         ahead: f64,
     ) -> Option<f64> {
-        let mut later = self.clone();
-        later.state.time += ahead;
-        let step: Vec<f64> = self.state.velocities().iter().map(|u| u * ahead).collect();
-        later.state.displace(&step);
-        let velocities = later.state.velocities_mut().iter_mut();
-        for (u, a) in velocities.zip(&self.accelerations) {
-            *u += ahead * a;
-        }
-        let rates = &self.accelerations[self.system.velocity_count()..];
-        for (y, rate) in later.state.states_mut().iter_mut().zip(rates) {
-            *y += ahead * rate;
-        }
-        instant
-            .accelerations(
-                &mut later.system,
-                &later.state,
-                &mut later.accelerations,
-                &mut later.multipliers,
-            )
-            .ok()?;
-        let half_curvature: Vec<f64> = later
-            .slope()
+        let kept = (
+            self.state.clone(),
+            self.accelerations.clone(),
+            self.multipliers.clone(),
+        );
+        self.move_ahead(ahead);
+        let solved = instant.accelerations(
+            &mut self.system,
+            &self.state,
+            &mut self.accelerations,
+            &mut self.multipliers,
+        );
+        let later = solved.is_ok().then(|| self.slope());
+        (self.state, self.accelerations, self.multipliers) = kept;
+        self.system.evaluate(&self.state, false);
+        self.system
+            .set_solution(&self.accelerations, 1.0, &self.multipliers);
+        let half_curvature: Vec<f64> = later?
             .iter()
             .zip(slope)
             .map(|(b, a)| 0.5 * (b - a) / ahead)
             .collect();
         let error = bdf::System::norm(dynamics, &half_curvature);
         error.is_finite().then_some(error)
+    }
+
+    /// Moves the state by its velocities and accelerations for a short time.
+    fn move_ahead(&mut self, time: f64) {
+        self.state.time += time;
+        let step: Vec<f64> = self.state.velocities().iter().map(|u| u * time).collect();
+        self.state.displace(&step);
+        let velocities = self.state.velocities_mut().iter_mut();
+        for (u, a) in velocities.zip(&self.accelerations) {
+            *u += time * a;
+        }
+        let rates = &self.accelerations[self.system.velocity_count()..];
+        for (y, rate) in self.state.states_mut().iter_mut().zip(rates) {
+            *y += time * rate;
+        }
     }
 
     /// Time derivative of the integrator's vector, at the instant solved last.

@@ -59,6 +59,8 @@ struct Engine {
     bdf: Bdf,
     crossing: Crossing,
     stiffness: Stiffness,
+    /// The state that the last run ended with; none where the mechanism has changed since.
+    left: Option<State>,
 }
 
 /// Steps of I3 in the place of those of SI2, past an instant that SI2 has not passed.
@@ -88,6 +90,7 @@ impl Engine {
             bdf: Bdf::new(simulation.state.values.len(), limits),
             crossing: Crossing::NONE,
             stiffness: Stiffness::default(),
+            left: None,
         }
     }
 }
@@ -170,8 +173,12 @@ impl Simulation {
             && levels(&model) == levels(self.model());
         let rows = self.system.row_count();
         let same_active = model.inactive == self.model().inactive;
+        let same_mechanism = model.is_mechanism_of(self.model());
         if !(self.system.replace_model(model) && same_active) {
             self.engine = None;
+        }
+        if let Some(engine) = self.engine.as_mut().filter(|_| !same_mechanism) {
+            engine.left = None;
         }
         if same {
             return Ok(None);
