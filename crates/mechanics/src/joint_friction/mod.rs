@@ -38,7 +38,7 @@ pub(crate) use memory::StepEnd;
 pub use memory::{Memory, Tally};
 pub use values::{SurfaceVector, Values};
 
-use crate::equation::{Axis, Equation, Local, LocalMatrix, Pair, Pin};
+use crate::equation::{Axis, Equation, Local, LocalMatrix, Pair, Pin, Reach};
 use crate::model::{Friction, FrictionJoint};
 use crate::rotation::skew;
 use crate::state::MarkerFrame;
@@ -125,6 +125,8 @@ pub(crate) struct Slopes {
     pub(crate) by_reaction: SMatrix<f64, 12, 6>,
     pub(crate) by_velocity: LocalMatrix,
     pub(crate) by_position: LocalMatrix,
+    /// What [`Slopes::weigh`] makes of them.
+    pub(crate) by_motion: LocalMatrix,
 }
 
 impl Slopes {
@@ -133,6 +135,41 @@ impl Slopes {
             by_reaction: SMatrix::zeros(),
             by_velocity: LocalMatrix::zeros(),
             by_position: LocalMatrix::zeros(),
+            by_motion: LocalMatrix::zeros(),
+        }
+    }
+
+    /// Sums up what the bodies' motions change, with these weights of velocities and positions, in the
+    /// parts that `reach` connects. The moment of the reaction changes with the rotation of I by
+    /// `moment_by_turn`, with that of J by the opposite.
+    pub(crate) fn weigh(
+        &mut self,
+        velocity: f64,
+        position: f64,
+        moment_by_turn: Option<Matrix3<f64>>,
+        reach: Reach,
+    ) {
+        for row in 0..4 {
+            let by_moment = self.by_reaction.fixed_view::<3, 3>(3 * row, 3);
+            let by_turn = moment_by_turn.map(|by_turn| by_moment * by_turn);
+            for column in 0..4 {
+                if !reach.connects(row, column) {
+                    continue;
+                }
+                let place = (3 * row, 3 * column);
+                let part = |matrix: &LocalMatrix| -> Matrix3<f64> {
+                    matrix.fixed_view::<3, 3>(place.0, place.1).into_owned()
+                };
+                let by_position = part(&self.by_position);
+                let by_position = match (by_turn, column) {
+                    (Some(by_turn), 1) => by_position + by_turn,
+                    (Some(by_turn), 3) => by_position - by_turn,
+                    _ => by_position,
+                };
+                let sum = velocity * part(&self.by_velocity) + position * by_position;
+                let mut out = self.by_motion.fixed_view_mut::<3, 3>(place.0, place.1);
+                out.copy_from(&sum);
+            }
         }
     }
 }
@@ -147,12 +184,14 @@ struct LoadAt {
 }
 
 impl FrictionJoint {
-    /// The first of a body's six motions that its friction depends on: 3 where the joint only turns.
-    pub(crate) fn first_motion(&self) -> usize {
-        let firsts = freedoms(self)
-            .iter()
-            .map(|equation| equation.first_motion());
-        firsts.min().unwrap_or(3)
+    /// Which motions of the bodies its friction depends on, and acts on.
+    pub(crate) fn reach(&self) -> Reach {
+        let turns = |equation: &Equation| equation.reach() == Reach::Turns;
+        if freedoms(self).iter().all(turns) {
+            Reach::Turns
+        } else {
+            Reach::Place
+        }
     }
 }
 

@@ -18,6 +18,7 @@ use super::single_force::{direction, direction_by_frame, direction_stiffness};
 use crate::constraint::{Form, Owner, places_of};
 use crate::equation::{Local, LocalMatrix, Pair};
 use crate::force_element::{ForceComponent, ForceElement, Side};
+use crate::joint_friction::Slopes;
 use crate::model::Element;
 use crate::snapshot::Wrench;
 use crate::state::MarkerFrame;
@@ -320,12 +321,14 @@ impl System {
     fn add_friction(&self, reading: &Reading, place: usize, multipliers: &[f64], row: &mut Row) {
         let p = reading.functional();
         let first = self.rate_count();
-        let change =
-            self.friction_change(place, *row.weights, multipliers, |_, unknown, change| {
-                row.add(first + unknown, p.dot(&change.fixed_rows::<6>(0)));
-            });
-        if let Some((sides, moving)) = change {
-            self.add_local_row(&p, &sides, &moving, 1.0, row);
+        let weights = *row.weights;
+        let mut slopes = Slopes::zero();
+        let by_multiplier = |_: &[Option<usize>; 2], unknown, change: &Local| {
+            row.add(first + unknown, p.dot(&change.fixed_rows::<6>(0)));
+        };
+        let sides = self.friction_change(place, weights, multipliers, &mut slopes, by_multiplier);
+        if let Some(sides) = sides {
+            self.add_local_row(&p, &sides, &slopes.by_motion, 1.0, row);
         }
     }
 

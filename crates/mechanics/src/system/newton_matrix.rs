@@ -174,9 +174,15 @@ impl System {
     fn assemble_frictions(&self, weights: Weights, multipliers: &[f64], matrix: &mut Matrix) {
         let n = self.rate_count();
         for place in 0..self.model.frictions.len() {
-            let first = self.model.frictions[place].load.first_motion();
-            let change =
-                self.friction_change(place, weights, multipliers, |sides, unknown, change| {
+            let reach = self.model.frictions[place].load.reach();
+            let first = if reach == Reach::Turns { 3 } else { 0 };
+            let mut slopes = Slopes::zero();
+            let sides = self.friction_change(
+                place,
+                weights,
+                multipliers,
+                &mut slopes,
+                |sides, unknown, change| {
                     for (side, body) in sides.iter().enumerate() {
                         let Some(body) = *body else { continue };
                         for r in (first..6).step_by(3) {
@@ -184,34 +190,31 @@ impl System {
                             matrix.add_block::<3, 1>(6 * body + r, n + unknown, &column);
                         }
                     }
-                });
-            if let Some((sides, moving)) = change {
-                let reach = if first == 3 {
-                    Reach::Turns
-                } else {
-                    Reach::Place
-                };
-                self.add_local_matrix(&sides, &moving, reach, -1.0, matrix);
+                },
+            );
+            if let Some(sides) = sides {
+                self.add_local_matrix(&sides, &slopes.by_motion, reach, -1.0, matrix);
             }
         }
     }
 
     /// How the generalised forces of a friction on its two bodies change with their local motions,
-    /// weighted as the unknowns are, and (`by_multiplier`, with the place of each) with the
-    /// multipliers that it follows. `None` where the friction does not act.
+    /// weighted as the unknowns are (`by_motion` of `slopes`, which are zero), and (`by_multiplier`,
+    /// with the place of each) with the multipliers that it follows. Returns the bodies; `None` where the
+    /// friction does not act.
     pub(super) fn friction_change(
         &self,
         place: usize,
         weights: Weights,
         multipliers: &[f64],
+        slopes: &mut Slopes,
         mut by_multiplier: impl FnMut(&[Option<usize>; 2], usize, &Local),
-    ) -> Option<([Option<usize>; 2], LocalMatrix)> {
+    ) -> Option<[Option<usize>; 2]> {
         if !self.friction_acts(place) {
             return None;
         }
-        let mut slopes = Slopes::zero();
         let wanted = Wanted {
-            slopes: Some(&mut slopes),
+            slopes: Some(&mut *slopes),
             ..Wanted::default()
         };
         self.evaluate_friction(place, multipliers, wanted);
@@ -230,22 +233,10 @@ impl System {
                 by_multiplier(&sides, unknown, &(slope * change));
             });
         }
-        if weights.velocity == 0.0 && weights.position == 0.0 {
-            return Some((sides, LocalMatrix::zeros()));
-        }
-        if let Some(by_turn) = self.moment_change(place, i, j, multipliers) {
-            for part in 0..4 {
-                let by_moment = slopes.by_reaction.fixed_view::<3, 3>(3 * part, 3);
-                let change = by_moment * by_turn;
-                let by_position = &mut slopes.by_position;
-                let mut by_i = by_position.fixed_view_mut::<3, 3>(3 * part, 3);
-                by_i += change;
-                let mut by_j = by_position.fixed_view_mut::<3, 3>(3 * part, 9);
-                by_j -= change;
-            }
-        }
-        let moving = weights.velocity * slopes.by_velocity + weights.position * slopes.by_position;
-        Some((sides, moving))
+        let by_turn = self.moment_change(place, i, j, multipliers);
+        let reach = self.model.frictions[place].load.reach();
+        slopes.weigh(weights.velocity, weights.position, by_turn, reach);
+        Some(sides)
     }
 
     /// Adds the change of a generalised force with the rotation of the body `carrier`.
