@@ -76,16 +76,19 @@ impl Quadrature {
 /// Integrals from the second node to the first of Lagrange's polynomials through the nodes.
 fn weights(nodes: &[f64]) -> [f64; MOST] {
     let step = nodes[0] - nodes[1];
+    let points = GAUSS.map(|(point, _)| nodes[1] + point * step);
     let mut weights = [0.0; MOST];
-    for (point, part) in GAUSS {
-        let time = nodes[1] + point * step;
-        for (k, weight) in weights[..nodes.len()].iter_mut().enumerate() {
-            let others = (0..nodes.len()).filter(|other| *other != k);
-            let value = others.fold(1.0, |product, other| {
-                product * (time - nodes[other]) / (nodes[k] - nodes[other])
-            });
-            *weight += part * step * value;
+    for (k, weight) in weights[..nodes.len()].iter_mut().enumerate() {
+        let (mut products, mut divisor) = (GAUSS.map(|(_, part)| part), 1.0);
+        for (other, node) in nodes.iter().enumerate() {
+            if other != k {
+                divisor *= nodes[k] - node;
+                for (product, point) in products.iter_mut().zip(points) {
+                    *product *= point - node;
+                }
+            }
         }
+        *weight = step * products.iter().sum::<f64>() / divisor;
     }
     weights
 }
