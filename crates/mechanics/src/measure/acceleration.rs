@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::frame::{Frame, seeded_vector, triple};
+use super::frame::{Frame, Seeded, triple, unit};
 use super::{Quantity, evaluate};
 use crate::scalar::{Dual, Scalar, Triple};
 use crate::state::MarkerFrame;
@@ -18,8 +18,8 @@ pub struct MarkerAcceleration {
 
 /// A marker and its accelerations with derivatives.
 #[derive(Clone, Copy)]
-struct Accelerated<T> {
-    frame: Frame<T>,
+struct Accelerated<T, F> {
+    frame: F,
     linear: Triple<T>,
     angular: Triple<T>,
 }
@@ -28,13 +28,9 @@ struct Accelerated<T> {
 /// acceleration and angular acceleration.
 type AccelerationDual = Dual<18>;
 
-impl Accelerated<AccelerationDual> {
-    fn new(m: &MarkerFrame, a: &MarkerAcceleration, seeded: bool) -> Self {
-        let unit = |k: usize| {
-            let mut e = Vector3::zeros();
-            e[k % 3] = 1.0;
-            e
-        };
+impl<'a> Accelerated<AccelerationDual, Seeded<'a>> {
+    fn new(m: &'a MarkerFrame, a: &MarkerAcceleration, body: usize) -> Self {
+        let frame = Seeded::by(m, body);
         let (omega, alpha) = (m.omega, a.angular);
         // a = a_c + α × ρ + ω × (ω × ρ)
         let by = |k: usize| {
@@ -58,17 +54,20 @@ impl Accelerated<AccelerationDual> {
             }
         };
         Self {
-            frame: Frame::<AccelerationDual>::new(m, seeded),
-            linear: seeded_vector(&a.linear, seeded, &by),
-            angular: seeded_vector(&a.angular, seeded, &turning),
+            linear: frame.vector(&a.linear, by),
+            angular: frame.vector(&a.angular, turning),
+            frame,
         }
     }
 }
 
-fn evaluate_acceleration<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Accelerated<T>; 4]) -> T {
-    let omega = &l.frame.omega;
-    let d = i.frame.origin.minus(&j.frame.origin);
-    let seen = i.frame.velocity.minus(&j.frame.velocity);
+fn evaluate_acceleration<T: Scalar, F: Frame<T>>(
+    quantity: Quantity,
+    [i, j, k, l]: &[Accelerated<T, F>; 4],
+) -> T {
+    let omega = l.frame.omega();
+    let d = i.frame.origin().minus(&j.frame.origin());
+    let seen = i.frame.velocity().minus(&j.frame.velocity());
     let two = T::constant(2.0);
     // d'' seen from l: d'' − α × d − 2 ω × (d' − ω × d) − ω × (ω × d)
     let linear = || {
@@ -78,15 +77,15 @@ fn evaluate_acceleration<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Accelera
         relative.minus(&coriolis).minus(&omega.cross(&drift))
     };
     let angular = || {
-        let spin = i.frame.omega.minus(&j.frame.omega);
+        let spin = i.frame.omega().minus(&j.frame.omega());
         i.angular.minus(&j.angular).minus(&omega.cross(&spin))
     };
     match quantity {
-        Quantity::Acceleration(axis) => linear().dot(&k.frame.axes[axis]),
+        Quantity::Acceleration(axis) => linear().dot(&k.frame.axis(axis)),
         Quantity::AccelerationMagnitude => linear().norm(),
-        Quantity::AngularAcceleration(axis) => angular().dot(&k.frame.axes[axis]),
+        Quantity::AngularAcceleration(axis) => angular().dot(&k.frame.axis(axis)),
         Quantity::AngularAccelerationMagnitude => angular().norm(),
-        _ => evaluate(quantity, &[i.frame, j.frame, k.frame, l.frame]),
+        _ => evaluate(quantity, [i, j, k, l].map(|m| m.frame)),
     }
 }
 
@@ -98,7 +97,7 @@ pub fn acceleration(
     accelerations: &[MarkerAcceleration; 4],
 ) -> f64 {
     let made = std::array::from_fn(|n| Accelerated {
-        frame: Frame::<f64>::new(markers[n]),
+        frame: markers[n],
         linear: triple(&accelerations[n].linear),
         angular: triple(&accelerations[n].angular),
     });
@@ -115,9 +114,7 @@ pub fn acceleration_slopes(
     body: usize,
 ) -> [f64; 18] {
     let made = std::array::from_fn(|n| {
-        let marker = markers[n];
-        let seeded = marker.body == Some(body);
-        Accelerated::<AccelerationDual>::new(marker, &accelerations[n], seeded)
+        Accelerated::<AccelerationDual, _>::new(markers[n], &accelerations[n], body)
     });
     evaluate_acceleration(quantity, &made).slopes
 }

@@ -14,7 +14,7 @@ use crate::state::MarkerFrame;
 pub use acceleration::{MarkerAcceleration, acceleration, acceleration_slopes};
 pub use angles::Sequence;
 use angles::{body_fixed, euler_parameter};
-use frame::Frame;
+use frame::{Frame, Moving, Seeded};
 use serde::{Deserialize, Serialize};
 
 /// The quantities, named after the functions of the dataset language.
@@ -119,18 +119,18 @@ impl Measure {
 }
 
 /// Quantities of displacement and velocity; angles are principal values.
-fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
-    let d = i.origin.minus(&j.origin);
+fn evaluate<T: Scalar, F: Frame<T>>(quantity: Quantity, [i, j, k, l]: [F; 4]) -> T {
+    let d = || i.origin().minus(&j.origin());
     // Cosines between axis a of i and axis b of j.
-    let c = |a: usize, b: usize| i.axes[a].dot(&j.axes[b]);
+    let c = |a: usize, b: usize| i.axis(a).dot(&j.axis(b));
     let seen = || {
-        let drift = l.omega.cross(&d);
-        i.velocity.minus(&j.velocity).minus(&drift)
+        let drift = l.omega().cross(&d());
+        i.velocity().minus(&j.velocity()).minus(&drift)
     };
-    let spin = || i.omega.minus(&j.omega);
+    let spin = || i.omega().minus(&j.omega());
     match quantity {
-        Quantity::Displacement(axis) => d.dot(&k.axes[axis]),
-        Quantity::Distance => d.norm(),
+        Quantity::Displacement(axis) => d().dot(&k.axis(axis)),
+        Quantity::Distance => d().norm(),
         Quantity::Rotation(0) => (-c(2, 1)).atan2(c(2, 2)),
         Quantity::Rotation(1) => c(2, 0).atan2(c(2, 2)),
         Quantity::Rotation(_) => c(0, 1).atan2(c(0, 0)),
@@ -138,23 +138,24 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
         Quantity::YawPitchRoll(1) => -body_fixed([2, 1, 0], 1, &c),
         Quantity::YawPitchRoll(n) => body_fixed([2, 1, 0], n, &c),
         Quantity::IncludedAngle => {
-            let e = k.origin.minus(&j.origin);
+            let (d, e) = (d(), k.origin().minus(&j.origin()));
             d.cross(&e).norm().atan2(d.dot(&e))
         }
         Quantity::EulerParameter(n) => euler_parameter(n, &c),
         Quantity::DirectionCosine(a, b) => c(a, b),
-        Quantity::Velocity(axis) => seen().dot(&k.axes[axis]),
+        Quantity::Velocity(axis) => seen().dot(&k.axis(axis)),
         Quantity::Speed => seen().norm(),
         Quantity::SeparationRate => {
+            let d = d();
             let length = d.norm();
             // Markers that coincide have no line along which they could part.
             if length.value() == 0.0 {
                 T::constant(0.0)
             } else {
-                i.velocity.minus(&j.velocity).dot(&d) / length
+                i.velocity().minus(&j.velocity()).dot(&d) / length
             }
         }
-        Quantity::AngularVelocity(axis) => spin().dot(&k.axes[axis]),
+        Quantity::AngularVelocity(axis) => spin().dot(&k.axis(axis)),
         Quantity::AngularSpeed => spin().norm(),
         Quantity::Acceleration(_)
         | Quantity::AccelerationMagnitude
@@ -163,30 +164,23 @@ fn evaluate<T: Scalar>(quantity: Quantity, [i, j, k, l]: &[Frame<T>; 4]) -> T {
     }
 }
 
-fn frames<T>(markers: [&MarkerFrame; 4], make: impl Fn(&MarkerFrame) -> Frame<T>) -> [Frame<T>; 4] {
-    markers.map(make)
-}
-
 /// Value of a quantity of displacement or velocity at markers i, j, k, l.
 #[must_use]
 pub fn value(quantity: Quantity, markers: [&MarkerFrame; 4]) -> f64 {
-    evaluate(quantity, &frames(markers, Frame::<f64>::new))
+    evaluate(quantity, markers)
 }
 
 /// Slopes of a quantity of displacement or velocity by the twelve motions of `body`: position and
 /// rotation, then velocity and angular velocity, along ground axes.
 #[must_use]
 pub fn slopes(quantity: Quantity, markers: [&MarkerFrame; 4], body: usize) -> [f64; 12] {
-    evaluate(
-        quantity,
-        &frames(markers, |m| Frame::<Dual<12>>::new(m, m.body == Some(body))),
-    )
-    .slopes
+    let seeded = markers.map(|marker| Seeded::by(marker, body));
+    evaluate::<Dual<12>, _>(quantity, seeded).slopes
 }
 
 /// Value, rate, and second rate with all accelerations zero, of a quantity of displacement.
 pub(crate) fn jet(quantity: Quantity, markers: [&MarkerFrame; 4]) -> Jet {
-    evaluate(quantity, &frames(markers, Frame::<Jet>::new))
+    evaluate(quantity, markers.map(Moving))
 }
 
 #[cfg(test)]
