@@ -175,6 +175,7 @@ impl System {
             }
         }
         self.bodies = kept;
+        self.update_markers();
         self.evaluate_function(place);
         for (block, jacobian) in self.evaluated[place].jacobian.iter().enumerate() {
             let turning = Vector3::from_column_slice(&jacobian[3..]);
@@ -191,6 +192,7 @@ impl System {
             self.bodies[body].velocity = Vector3::from_column_slice(&u[..3]);
             self.bodies[body].omega = Vector3::from_column_slice(&u[3..]);
         }
+        self.update_markers();
         self.evaluate_function(place);
         -self.evaluated[place].unbiased_acceleration
     }

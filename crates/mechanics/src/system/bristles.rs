@@ -142,7 +142,8 @@ impl System {
                 self.history.frictions[place] = self.history.frictions[place].renewed(fresh);
                 continue;
             }
-            let [i, j] = self.pairs[self.friction_pairs[place]].frames();
+            let joint = &self.model.joints[self.model.frictions[place].joint];
+            let [i, j] = [joint.i, joint.j].map(|marker| self.markers.get(marker));
             let (friction, end) = (&self.model.frictions[place], &self.friction_ends[place]);
             self.history.frictions[place].accept(friction, i, j, end);
         }

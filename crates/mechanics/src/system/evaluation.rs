@@ -3,28 +3,28 @@
 use super::System;
 use crate::constraint::{Constraint, Evaluated, Owner};
 use crate::expression::Input;
-use crate::measure::{self, Order, Quantity};
+use crate::measure::{self, Measure, Order, Quantity};
 use crate::model::Level;
 use crate::scalar::Jet;
 use crate::state::{MarkerFrame, State};
 
 impl System {
-    fn measure_frames(&self, measure: usize) -> [MarkerFrame; 4] {
-        // One by one: frames are large, and `map` would copy them.
-        let [i, j, k, l] = self.model.measures[measure].markers();
-        [
-            self.marker(i),
-            self.marker(j),
-            self.marker(k),
-            self.marker(l),
-        ]
+    /// Frames of the markers of a measure that the equations read.
+    fn measure_frames(&self, measure: usize) -> [&MarkerFrame; 4] {
+        let markers = self.model.measures[measure].markers();
+        markers.map(|marker| self.frame(marker))
     }
 
     /// Value of a measure of displacement or velocity; rotations are continuous over many turns.
     pub(crate) fn measure_value(&self, place: usize) -> f64 {
-        let [i, j, k, l] = self.measure_frames(place);
-        let quantity = self.model.measures[place].quantity;
-        let value = measure::value(quantity, [&i, &j, &k, &l]);
+        let Measure { quantity, .. } = self.model.measures[place];
+        let value = if self.needed[place] {
+            measure::value(quantity, self.measure_frames(place))
+        } else {
+            let markers = self.model.measures[place].markers();
+            let frames = markers.map(|marker| self.marker(marker));
+            measure::value(quantity, frames.each_ref())
+        };
         match quantity {
             Quantity::Rotation(_) => nearest_turn(value, self.history.angles[place]),
             _ => value,
@@ -39,6 +39,7 @@ impl System {
         for (place, body) in self.bodies.iter_mut().enumerate() {
             body.update(state, place, &self.model.bodies[place]);
         }
+        self.update_markers();
         for place in 0..self.model.measures.len() {
             let order = self.model.measures[place].quantity.order();
             if self.needed[place] && order != Order::Acceleration {
@@ -76,12 +77,13 @@ impl System {
             if !self.needed[place] || quantity.order() == Order::Acceleration {
                 continue;
             }
-            let [i, j, k, l] = self.measure_frames(place);
+            let markers = self.model.measures[place].markers();
+            let frames = markers.map(|marker| self.markers.get(marker));
             for (&body, slopes) in self.measure_bodies[place]
                 .iter()
                 .zip(&mut self.measure_slopes[place])
             {
-                *slopes = measure::slopes(quantity, [&i, &j, &k, &l], body);
+                *slopes = measure::slopes(quantity, frames, body);
                 if !self.model.bodies[body].rotates {
                     slopes[3..6].fill(0.0);
                     slopes[9..12].fill(0.0);
@@ -119,13 +121,11 @@ impl System {
             }
         });
         let model = &self.model;
-        let frames = &self.bodies;
+        let frames = &self.markers;
         let jet = function.run(&mut self.jets, |input| match input {
             Input::Measure(measure) => {
-                let [i, j, k, l] = model.measures[measure]
-                    .markers()
-                    .map(|m| MarkerFrame::new(&model.markers[m], frames));
-                let mut jet = measure::jet(model.measures[measure].quantity, [&i, &j, &k, &l]);
+                let at = model.measures[measure].markers().map(|m| frames.get(m));
+                let mut jet = measure::jet(model.measures[measure].quantity, at);
                 jet.value = inputs.measures[measure];
                 jet
             }

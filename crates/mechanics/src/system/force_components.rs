@@ -146,7 +146,7 @@ impl System {
                     let value = force
                         .function
                         .evaluate(registers, |input| self.inputs.read(input));
-                    let part = about(&frames.i, &(value * direction(force.kind, &frames)));
+                    let part = about(frames.i, &(value * direction(force.kind, &frames)));
                     sum.force += part.force;
                     sum.torque += part.torque;
                 }
@@ -272,8 +272,8 @@ impl System {
                     self.multiplier_parts(place, |unknown, slope| {
                         row.add(first + unknown, unit * slope);
                     });
-                    let [i, j] = [i, j].map(|marker| self.marker(marker));
-                    let pair = Pair::new(&i, &j);
+                    let [i, j] = [i, j].map(|marker| self.frame(marker));
+                    let pair = Pair::new(i, j);
                     let stiffness = equation.stiffness(&pair, &self.model.curves).matrix(&pair);
                     let scale = row.weights.position * self.multiplier(place, multipliers);
                     self.add_local_row(&p, &[i.body, j.body], &stiffness, scale, row);
@@ -307,7 +307,7 @@ impl System {
         self.add_local_row(&p, &frames.sides(), &turning, scale, row);
         if let Some(change) = direction_by_frame(force.kind, &frames) {
             let turn = value * change.fixed_rows::<6>(0).tr_mul(&p);
-            self.add_turning(&frames.frame, &turn, row);
+            self.add_turning(frames.frame, &turn, row);
         }
         let unit = p.dot(&direction(force.kind, &frames).fixed_rows::<6>(0));
         let weights = row.weights;

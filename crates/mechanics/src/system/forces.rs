@@ -54,8 +54,8 @@ impl System {
             if !self.model.is_active(Element::Force(place)) {
                 continue;
             }
-            let frames = self.force_frames(&self.model.forces[place]);
             let value = self.force_value(place);
+            let frames = self.force_frames(&self.model.forces[place]);
             let direction = direction(self.model.forces[place].kind, &frames);
             self.add_local(&frames.sides(), &(value * direction), out);
         }
@@ -86,11 +86,11 @@ impl System {
         }
     }
 
-    pub(super) fn force_frames(&self, force: &SingleForce) -> Frames {
+    pub(super) fn force_frames(&self, force: &SingleForce) -> Frames<'_> {
         Frames {
-            i: self.marker(force.i),
-            j: self.marker(force.j),
-            frame: self.marker(force.frame()),
+            i: self.frame(force.i),
+            j: self.frame(force.j),
+            frame: self.frame(force.frame()),
         }
     }
 

@@ -31,6 +31,7 @@ mod evaluation;
 mod force_components;
 mod forces;
 mod inputs;
+mod markers;
 mod newton_matrix;
 mod pairs;
 mod reactions;
@@ -49,6 +50,7 @@ use crate::model::{Definition, Element, Model};
 use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
+use markers::Markers;
 pub(crate) use newton_matrix::Weights;
 use pairs::PairGroup;
 use serde::{Deserialize, Serialize};
@@ -86,6 +88,9 @@ pub struct System {
     pub(crate) constraints: Vec<Constraint>,
     #[serde(skip)]
     pairs: Vec<PairGroup>,
+    /// The markers that the equations read, where they were evaluated last.
+    #[serde(skip)]
+    markers: Markers,
     /// Constraints that are functions of the model.
     #[serde(skip)]
     functions: Vec<usize>,
@@ -94,9 +99,6 @@ pub struct System {
     /// Contributions to the reaction of each friction's joint.
     #[serde(skip)]
     reactions: Vec<Vec<Contribution>>,
-    /// The equations of each friction's joint, by their place among the pairs.
-    #[serde(skip)]
-    friction_pairs: Vec<usize>,
     /// Frictions where they were taken last.
     #[serde(skip)]
     friction_ends: Vec<StepEnd>,
@@ -143,14 +145,6 @@ impl System {
             .map(|friction| reaction_of(&constraints, friction.joint))
             .collect();
         let bodies = vec![BodyFrame::at_rest(); model.bodies.len()];
-        let pairs = pairs::groups(&constraints, &model.markers, &bodies);
-        let friction_pairs = model.frictions.iter().map(|friction| {
-            let joint = &model.joints[friction.joint];
-            let mut groups = pairs.iter();
-            let found = groups.position(|group| group.is_between([joint.i, joint.j]));
-            found.expect("a joint with friction has equations")
-        });
-        let friction_pairs = friction_pairs.collect();
         let mut needed = vec![false; model.measures.len()];
         let functions = model.forces.iter().map(|f| &f.function);
         let functions = functions.chain(model.constraints.iter().map(|c| &c.function));
@@ -193,6 +187,7 @@ impl System {
         let of_functions = |place: &usize| constraints[*place].form == Form::Function;
         let functions = (0..constraints.len()).filter(of_functions).collect();
         let mut system = Self {
+            markers: Markers::new(&model, &constraints, &needed, &bodies),
             bodies,
             inputs: Inputs {
                 time: 0.0,
@@ -207,12 +202,11 @@ impl System {
                 .collect(),
             acting,
             measure_bodies,
-            needed,
             rows: Vec::new(),
-            pairs,
+            pairs: pairs::groups(&constraints),
+            needed,
             functions,
             reactions,
-            friction_pairs,
             friction_ends: Vec::with_capacity(model.frictions.len()),
             sharing: Sharing::default(),
             bristles: vec![BristlePast::default(); model.frictions.len()],
@@ -243,9 +237,9 @@ impl System {
             model,
             mut constraints,
             pairs,
+            markers,
             functions,
             reactions,
-            friction_pairs,
             friction_ends,
             acting,
             needed,
@@ -263,10 +257,11 @@ impl System {
         }
         (self.model, self.constraints, self.pairs) = (model, constraints, pairs);
         (self.functions, self.reactions) = (functions, reactions);
-        (self.friction_pairs, self.friction_ends) = (friction_pairs, friction_ends);
-        self.update_pairs();
+        self.friction_ends = friction_ends;
         (self.acting, self.needed, self.measure_bodies) = (acting, needed, measure_bodies);
         (self.registers, self.adjoints, self.jets) = (registers, adjoints, jets);
+        self.markers = markers;
+        self.update_markers();
     }
 
     /// The model.
@@ -393,7 +388,7 @@ impl System {
         let active: Vec<bool> = self.constraints.iter().map(|c| c.row.is_some()).collect();
         let before = std::mem::replace(self, fresh);
         self.bodies = before.bodies;
-        self.update_pairs();
+        self.update_markers();
         self.inputs = before.inputs;
         self.sharing = before.sharing;
         self.set_active(&active);

@@ -8,44 +8,18 @@ use super::{Rows, System, Weights};
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::equation::{Axis, Equation, Local, Pair, Stiffness};
 use crate::expression::Input;
-use crate::model::{Level, Marker};
+use crate::model::Level;
 use crate::scalar::Jet;
-use crate::state::{BodyFrame, MarkerFrame};
 
 /// Constraint equations that follow one another in the list and are between the same two markers.
 #[derive(Clone, Debug)]
 pub(super) struct PairGroup {
     markers: [usize; 2],
     constraints: std::ops::Range<usize>,
-    /// The markers on the bodies as they were evaluated last.
-    frames: [MarkerFrame; 2],
 }
 
-impl PairGroup {
-    /// Whether it is of the equations between these markers.
-    pub(super) fn is_between(&self, markers: [usize; 2]) -> bool {
-        self.markers == markers
-    }
-
-    /// Brings the frames up to date with the bodies.
-    fn update(&mut self, markers: &[Marker], bodies: &[BodyFrame]) {
-        for (frame, &marker) in self.frames.iter_mut().zip(&self.markers) {
-            frame.update(&markers[marker], bodies);
-        }
-    }
-
-    /// The frames of its markers, I and J.
-    pub(super) fn frames(&self) -> [&MarkerFrame; 2] {
-        self.frames.each_ref()
-    }
-}
-
-/// The groups of a list of constraints, on bodies that are yet to be evaluated.
-pub(super) fn groups(
-    constraints: &[Constraint],
-    markers: &[Marker],
-    bodies: &[BodyFrame],
-) -> Vec<PairGroup> {
+/// The groups of a list of constraints.
+pub(super) fn groups(constraints: &[Constraint]) -> Vec<PairGroup> {
     let mut groups: Vec<PairGroup> = Vec::new();
     for (place, constraint) in constraints.iter().enumerate() {
         let Form::Pair { i, j, .. } = constraint.form else {
@@ -56,7 +30,6 @@ pub(super) fn groups(
             _ => groups.push(PairGroup {
                 markers: [i, j],
                 constraints: place..place + 1,
-                frames: [i, j].map(|marker| MarkerFrame::new(&markers[marker], bodies)),
             }),
         }
     }
@@ -64,25 +37,16 @@ pub(super) fn groups(
 }
 
 impl System {
-    /// Brings the frames of all groups up to date with the bodies.
-    pub(super) fn update_pairs(&mut self) {
-        for group in &mut self.pairs {
-            group.update(&self.model.markers, &self.bodies);
-        }
-    }
-
     /// Brings the equations of a group up to date with the bodies.
     pub(super) fn evaluate_pairs(&mut self, group: usize) {
-        self.pairs[group].update(&self.model.markers, &self.bodies);
         let PairGroup {
+            markers: [i, j],
             constraints,
-            frames,
-            ..
-        } = &self.pairs[group];
-        let pair = Pair::new(&frames[0], &frames[1]);
+        } = self.pairs[group].clone();
+        let pair = Pair::new(self.markers.get(i), self.markers.get(j));
         let sides = [pair.i.body, pair.j.body];
         let turns = sides.map(|body| body.is_none_or(|body| self.model.bodies[body].rotates));
-        for place in constraints.clone() {
+        for place in constraints {
             let constraint = &self.constraints[place];
             let Form::Pair { equation, .. } = constraint.form else {
                 continue;
@@ -133,11 +97,10 @@ impl System {
         }
         for PairGroup {
             constraints,
-            frames: [i, j],
-            ..
+            markers: [i, j],
         } in &self.pairs
         {
-            let pair = Pair::new(i, j);
+            let pair = Pair::new(self.frame(*i), self.frame(*j));
             for constraint in &self.constraints[constraints.clone()] {
                 if let (Form::Pair { equation, .. }, Some(row)) = (constraint.form, constraint.row)
                 {
@@ -157,10 +120,10 @@ impl System {
     ) {
         for PairGroup {
             constraints,
-            frames: [i, j],
-            ..
+            markers: [i, j],
         } in &self.pairs
         {
+            let (i, j) = (self.frame(*i), self.frame(*j));
             let pair = Pair::new(i, j);
             let mut stiffness = Stiffness::none();
             let mut reach = None;

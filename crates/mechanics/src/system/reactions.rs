@@ -126,7 +126,8 @@ impl System {
 
     /// The frames of the markers of a friction's joint as they were evaluated last.
     pub(crate) fn friction_frames(&self, place: usize) -> [&MarkerFrame; 2] {
-        self.pairs[self.friction_pairs[place]].frames()
+        let joint = &self.model.joints[self.model.frictions[place].joint];
+        [self.frame(joint.i), self.frame(joint.j)]
     }
 
     /// Friction element `place`.

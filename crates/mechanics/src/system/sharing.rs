@@ -226,7 +226,7 @@ impl System {
     /// The relative motion of the markers of a link, that of the origin of I seen from J and the rotation,
     /// as two bodies cause it by their `z`.
     fn link(&self, [i, j]: [usize; 2]) -> [(Option<usize>, Matrix6<f64>); 2] {
-        let [i, j] = [i, j].map(|marker| self.marker(marker));
+        let [i, j] = [i, j].map(|marker| self.frame(marker));
         let reach = j.arm + (i.origin - j.origin);
         [(i.body, i.arm, 1.0), (j.body, reach, -1.0)].map(|(body, arm, sign)| {
             let mut motion = sign * Matrix6::identity();

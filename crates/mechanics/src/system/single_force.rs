@@ -9,13 +9,13 @@ use crate::state::MarkerFrame;
 
 /// Frames of marker I, of marker J, and of the marker whose axes give the direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frames {
-    pub(super) i: MarkerFrame,
-    pub(super) j: MarkerFrame,
-    pub(super) frame: MarkerFrame,
+pub(super) struct Frames<'a> {
+    pub(super) i: &'a MarkerFrame,
+    pub(super) j: &'a MarkerFrame,
+    pub(super) frame: &'a MarkerFrame,
 }
 
-impl Frames {
+impl Frames<'_> {
     /// The bodies of I and J.
     pub(super) fn sides(&self) -> [Option<usize>; 2] {
         [self.i.body, self.j.body]
@@ -31,7 +31,7 @@ impl Frames {
 pub(super) type ByRotation = SMatrix<f64, 12, 3>;
 
 /// Generalised force of one unit of a single-component force.
-pub(super) fn direction(kind: ForceKind, frames: &Frames) -> Local {
+pub(super) fn direction(kind: ForceKind, frames: &Frames<'_>) -> Local {
     let mut local = Local::zeros();
     let Frames { i, j, frame } = frames;
     match kind {
@@ -76,7 +76,7 @@ pub(super) fn direction(kind: ForceKind, frames: &Frames) -> Local {
 
 /// Change of [`direction`] with the local motions of the bodies of I and J; that of an axis of
 /// another marker is [`direction_by_frame`].
-pub(super) fn direction_stiffness(kind: ForceKind, frames: &Frames) -> LocalMatrix {
+pub(super) fn direction_stiffness(kind: ForceKind, frames: &Frames<'_>) -> LocalMatrix {
     let mut matrix = LocalMatrix::zeros();
     let Frames { i, j, .. } = frames;
     let mut put = |row: usize, column: usize, block: Matrix3<f64>| {
@@ -133,7 +133,7 @@ pub(super) fn direction_stiffness(kind: ForceKind, frames: &Frames) -> LocalMatr
 
 /// Change of [`direction`] with the rotation of the body that carries the axis of a component;
 /// `None` for the kinds whose direction [`direction_stiffness`] knows completely.
-pub(super) fn direction_by_frame(kind: ForceKind, frames: &Frames) -> Option<ByRotation> {
+pub(super) fn direction_by_frame(kind: ForceKind, frames: &Frames<'_>) -> Option<ByRotation> {
     let mut change = ByRotation::zeros();
     let mut put = |row: usize, block: Matrix3<f64>| {
         change.fixed_view_mut::<3, 3>(row, 0).copy_from(&block);

@@ -25,10 +25,11 @@ impl System {
             if !self.model.is_active(Element::Force(place)) {
                 continue;
             }
+            let value = self.force_value(place);
             let frames = self.force_frames(&self.model.forces[place]);
             let direction = direction(self.model.forces[place].kind, &frames);
-            let velocities = Pair::new(&frames.i, &frames.j).velocities();
-            forces += self.force_value(place) * direction.dot(&velocities);
+            let velocities = Pair::new(frames.i, frames.j).velocities();
+            forces += value * direction.dot(&velocities);
         }
         powers[frictions] = forces;
         let mut motions = 0.0;
