@@ -143,7 +143,7 @@ impl Bdf {
             let growth = here.size / size;
             if growth > 1.0 && falling {
                 // The error of a start is that of its first formulas: grow while it allows.
-                let largest = if self.values.count() < 4 { 8.0 } else { 2.0 };
+                let largest = if self.known_orders() < 3 { 8.0 } else { 2.0 };
                 self.size = size * growth.min(largest);
                 if predictor == self.order
                     && self.order < self.highest_order()

@@ -62,9 +62,14 @@ impl History {
         for j in 0..kept {
             let row = j * self.size..(j + 1) * self.size;
             let last = j + 1 == kept;
-            let span = time - self.times[j.min(self.nodes - 1)];
-            for (new, old) in self.work.iter_mut().zip(&mut self.differences[row]) {
-                let next = if last { 0.0 } else { (*new - *old) / span };
+            let differences = self.work.iter_mut().zip(&mut self.differences[row]);
+            if last {
+                differences.for_each(|(new, old)| *old = *new);
+                break;
+            }
+            let per_span = (time - self.times[j]).recip();
+            for (new, old) in differences {
+                let next = (*new - *old) * per_span;
                 *old = *new;
                 *new = next;
             }
@@ -78,6 +83,12 @@ impl History {
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
+    }
+
+    /// How many nodes it keeps.
+    #[must_use]
+    pub fn capacity(&self) -> usize {
+        self.nodes
     }
 
     /// Number of values.

@@ -9,6 +9,8 @@ use super::{Family, History, Step, System, Verdict};
 
 /// Nodes of values kept: order + 2, so that the error of the next higher order can be estimated.
 const VALUE_NODES: usize = Family::BackwardDifferences.highest_order() + 2;
+/// Nodes of values kept by formulas that go on from slopes: the double one of a start.
+const START_NODES: usize = 2;
 /// Nodes of slopes kept for the formulas of Adams: order + 1 for the same reason.
 const SLOPE_NODES: usize = Family::Adams.highest_order() + 1;
 
@@ -158,15 +160,21 @@ impl Bdf {
     pub fn set_settings(&mut self, settings: Settings) {
         self.settings = settings;
         let size = self.values.size();
-        let (slopes, nodes, curvatures) = match settings.family {
-            Family::BackwardDifferences => (0, 0, 0),
-            Family::Adams => (size, SLOPE_NODES, 0),
-            Family::Newmark(_) => (size, 1, size),
+        let [values, slopes] = match settings.family {
+            Family::BackwardDifferences => [(size, VALUE_NODES), (0, 0)],
+            Family::Adams => [(size, START_NODES), (size, SLOPE_NODES)],
+            Family::Newmark(_) => [(size, VALUE_NODES), (size, 1)],
         };
-        if (self.slopes.size(), self.curvature.len()) != (slopes, curvatures) {
-            self.slopes = History::new(slopes, nodes);
-            self.curvature = vec![0.0; curvatures];
+        for (history, wanted) in [(&mut self.values, values), (&mut self.slopes, slopes)] {
+            if (history.size(), history.capacity()) != wanted {
+                *history = History::new(wanted.0, wanted.1);
+            }
         }
+        let curvatures = match settings.family {
+            Family::BackwardDifferences | Family::Adams => 0,
+            Family::Newmark(_) => size,
+        };
+        self.curvature.resize(curvatures, 0.0);
     }
 
     /// Forgets the past and starts from a value, its slope and a first step size to try.
