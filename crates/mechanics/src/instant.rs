@@ -211,6 +211,11 @@ impl Instant {
         found
     }
 
+    /// The matrix and its factors.
+    pub(crate) fn factored(&self) -> (&Matrix, &FrontalLu) {
+        (&self.matrix, &self.factors)
+    }
+
     /// The multipliers that the last solution started from.
     pub(crate) fn guess(&self) -> &[f64] {
         &self.guess
@@ -282,6 +287,7 @@ impl Instant {
         let n = system.rate_count();
         let moving = system.velocity_count();
         let rounding = 1e-14 * scales.length;
+        system.set_statics(false);
         system.evaluate(state, false);
         let rates = &mut self.right[n..n + system.row_count()];
         system.velocity_lacks(state.velocities(), rates);

@@ -44,7 +44,7 @@ use numerics::bdf::{self, Family, History};
 use numerics::linear::{FrontalLu, Matrix};
 use serde::{Deserialize, Serialize};
 
-use crate::instant::Failure;
+use crate::instant::{Failure, Instant};
 use crate::joint_friction::Memory;
 use crate::model::Model;
 use crate::state::State;
@@ -217,6 +217,16 @@ impl Dynamics {
             factored: None,
             rate: 0.0,
             system,
+        }
+    }
+
+    /// Takes over the pattern of the Newton matrix and its order of elimination, which are the same at an
+    /// instant as in a step, unless they are known.
+    pub(crate) fn take_pattern(&mut self, instant: &Instant) {
+        if !self.matrix.has_pattern() {
+            let (matrix, factors) = instant.factored();
+            self.matrix.clone_from(matrix);
+            self.factors.clone_from(factors);
         }
     }
 

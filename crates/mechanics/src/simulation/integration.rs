@@ -34,15 +34,10 @@ impl Simulation {
         settings: &Settings,
         observer: &mut impl Observer,
     ) -> Result<Ending, RunError> {
-        let kept = self.engine.take();
-        let left = kept.as_ref().and_then(|engine| engine.left.as_ref());
+        let left = self.engine.as_ref().and_then(|engine| engine.left.as_ref());
         let goes_on = left == Some(&self.state);
         self.state.set_shares(self.system.switch_count());
-        let fits = |engine: &Engine| engine.bdf.value().len() == self.state.values.len();
-        let mut engine = match kept.filter(fits) {
-            Some(engine) => engine,
-            None => Engine::new(self, limits(settings, settings.formulation)),
-        };
+        let mut engine = self.take_engine();
         let started = self.start(&mut engine, goes_on, end, settings);
         let ending =
             started.and_then(|()| self.integrate(&mut engine, end, outputs, settings, observer));
@@ -129,6 +124,7 @@ impl Simulation {
         self.refuse_jam(jam)?;
         self.system.take_frictions(&self.multipliers);
         self.system.observe_loads();
+        dynamics.take_pattern(instant);
         dynamics.start(&self.system, settings.formulation, self.scales);
         dynamics.error = settings.error;
         dynamics.motion_error = settings.motion_error();

@@ -10,7 +10,7 @@ mod saved;
 mod statics;
 mod stiffness;
 
-use numerics::bdf::{self, Bdf};
+use numerics::bdf::{self, Bdf, Family};
 use serde::{Deserialize, Serialize};
 
 pub use energy::{gravity_energy, kinetic_energy};
@@ -44,7 +44,7 @@ pub struct Simulation {
     bristle_gamma: f64,
     /// Jumps of functions that the motion has stayed at.
     slidings: Vec<Sliding>,
-    /// Storage and matrix patterns, kept between runs of the same equations.
+    /// Storage and matrix patterns, kept between instants and runs of the same equations.
     engine: Option<Engine>,
 }
 
@@ -79,15 +79,25 @@ impl Crossing {
     };
 }
 
+/// Limits of an integrator before a run sets its own.
+const UNSET: bdf::Settings = bdf::Settings {
+    family: Family::BackwardDifferences,
+    highest_order: 1,
+    longest_step: 0.0,
+    shortest_step: 0.0,
+    untested: false,
+};
+
 impl Engine {
-    fn new(simulation: &Simulation, limits: bdf::Settings) -> Self {
+    fn new(simulation: &Simulation) -> Self {
         let system = &simulation.system;
+        let size = simulation.state.share_range().start + system.switch_count();
         Self {
             before: simulation.statistics,
             instant: Instant::new(system),
             dynamics: Dynamics::new(system.clone(), simulation.scales),
             gains: GainWatch::new(system),
-            bdf: Bdf::new(simulation.state.values.len(), limits),
+            bdf: Bdf::new(size, UNSET),
             crossing: Crossing::NONE,
             stiffness: Stiffness::default(),
             left: None,
@@ -136,19 +146,31 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] where they have no unique solution.
     pub fn solve_instant(&mut self) -> Result<(), RunError> {
-        let mut instant = Instant::new(&self.system);
+        let mut engine = self.take_engine();
+        engine.instant.forget();
         self.system
             .set_bristles(&self.bristle_past, self.bristle_gamma);
-        let solved = instant.accelerations(
+        let solved = engine.instant.accelerations(
             &mut self.system,
             &self.state,
             &mut self.accelerations,
             &mut self.multipliers,
         );
         // A jam shows as reactions without a solution, or as one that makes no sense.
-        let jam = GainWatch::new(&self.system).look(&mut self.system, &self.multipliers);
-        self.refuse_jam(jam)?;
-        solved.map_err(|failure| self.unsolved(&failure, &instant))
+        let jam = engine.gains.look(&mut self.system, &self.multipliers);
+        let outcome = self
+            .refuse_jam(jam)
+            .and_then(|()| solved.map_err(|failure| self.unsolved(&failure, &engine.instant)));
+        self.engine = Some(engine);
+        outcome
+    }
+
+    /// The engine of the present equations.
+    fn take_engine(&mut self) -> Engine {
+        let size = self.state.share_range().start + self.system.switch_count();
+        let kept = self.engine.take();
+        kept.filter(|engine| engine.bdf.value().len() == size)
+            .unwrap_or_else(|| Engine::new(self))
     }
 
     /// Replaces element parameters, functions, the markers of forces and what is active; bodies,

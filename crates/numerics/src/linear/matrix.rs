@@ -59,6 +59,12 @@ impl Matrix {
         self.size
     }
 
+    /// Whether an assembly has fixed the pattern.
+    #[must_use]
+    pub fn has_pattern(&self) -> bool {
+        self.compressed
+    }
+
     /// Begins an assembly: all values become zero.
     pub fn start(&mut self) {
         self.next = 0;
