@@ -98,7 +98,7 @@ fn four_bars(
             "its one equation of motion, integrated to 1e-13",
             1e-11,
         ),
-        tightest: if loops > 10 { -8 } else { -10 },
+        tightest: -10,
         peers: vec![
             exudyn("Exudyn, generalised alpha 0.8", "alpha", peer[0]),
             exudyn("Exudyn, trapezoidal index 2", "trapezoidal", peer[1]),
