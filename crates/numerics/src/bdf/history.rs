@@ -67,9 +67,9 @@ impl History {
                 differences.for_each(|(new, old)| *old = *new);
                 break;
             }
-            let per_span = (time - self.times[j]).recip();
+            let span = time - self.times[j];
             for (new, old) in differences {
-                let next = (*new - *old) * per_span;
+                let next = (*new - *old) / span;
                 *old = *new;
                 *new = next;
             }
