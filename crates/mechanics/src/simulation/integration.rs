@@ -180,6 +180,12 @@ impl Simulation {
                 total(before, bdf.statistics(), dynamics.work, told)
             };
             if let Err(error) = advanced {
+                // Steps of I3 do not test what bristles make of velocities.
+                let bristles = !self.state.bristle_range().is_empty();
+                if bristles && dynamics.formulation() == Formulation::Adams {
+                    self.go_on_stiff(bdf, dynamics, instant, settings)?;
+                    continue;
+                }
                 // A motion may prescribe a jump of velocity, which no step of SI2 can follow; I3
                 // has only positions to meet.
                 let further = bdf.time() > crossing.from;
@@ -252,13 +258,7 @@ impl Simulation {
             if dynamics.is_at_jump() {
                 self.pass_jump(bdf, dynamics, instant, end, settings)?;
             } else if dynamics.formulation() != Formulation::Si2 && stiffness.shows(bdf) {
-                let stiff = Settings {
-                    formulation: Formulation::Si2,
-                    ..*settings
-                };
-                dynamics.take_over(stiff.formulation, stiff.motion_error());
-                self.statistics.stiff_from = Some(bdf.time());
-                self.restart(bdf, dynamics, instant, limits(&stiff, stiff.formulation))?;
+                self.go_on_stiff(bdf, dynamics, instant, settings)?;
             }
             if ending == Ending::Completed && bdf.time() < end && observer.pauses() {
                 ending = Ending::Paused;
@@ -285,6 +285,23 @@ impl Simulation {
         let slope = self.slope();
         self.begin(bdf, dynamics, &slope, 1e-3 * formulas.longest_step);
         Ok(())
+    }
+
+    /// Goes on by SI2 from where the integrator is, as the equations are stiff.
+    fn go_on_stiff(
+        &mut self,
+        bdf: &mut Bdf,
+        dynamics: &mut Dynamics,
+        instant: &mut Instant,
+        settings: &Settings,
+    ) -> Result<(), RunError> {
+        let stiff = Settings {
+            formulation: Formulation::Si2,
+            ..*settings
+        };
+        dynamics.take_over(stiff.formulation, stiff.motion_error());
+        self.statistics.stiff_from = Some(bdf.time());
+        self.restart(bdf, dynamics, instant, limits(&stiff, stiff.formulation))
     }
 
     /// Starts the integrator anew on the other side of the jump of a function.

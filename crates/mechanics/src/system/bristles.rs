@@ -100,9 +100,15 @@ impl System {
 
     /// Writes the largest error of the deflections that a step may make where frictions were taken last,
     /// for the error `tolerance`: a part of the deflection of the largest load, the larger the less of
-    /// its past a step takes over. `rough` is the part of the largest load below which nothing is known
-    /// of reactions, and so of deflections.
+    /// its past a step takes over, and at least `tolerance` of the largest friction of all: where a joint
+    /// has no load to speak of, its own is rounding. `rough` is the part of the largest load below which
+    /// nothing is known of reactions, and so of deflections.
     pub(crate) fn write_bristle_errors(&self, tolerance: f64, rough: f64, errors: &mut [f64]) {
+        let levels = self.model.frictions.iter().zip(&self.history.frictions);
+        let largest = levels.fold(0.0_f64, |most, (friction, memory)| match &friction.law {
+            Law::LuGre(law) => most.max(law.mu_static * memory.largest_load),
+            Law::Original(_) => most,
+        });
         let mut first = 0;
         for (place, friction) in self.model.frictions.iter().enumerate() {
             let count = self.bristles_of(place);
@@ -124,7 +130,7 @@ impl System {
                     0.0
                 };
                 errors[first..first + count].fill(if kept > 0.0 {
-                    part * level / (law.bristle_stiffness * kept)
+                    (part * level).max(tolerance * largest) / (law.bristle_stiffness * kept)
                 } else {
                     f64::INFINITY
                 });
