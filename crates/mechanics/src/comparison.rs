@@ -6,7 +6,9 @@
 //! Mathematics 1386, 1989) has `1 − 10⁻q` of it as the difference of both runs: nine tenths for `q = 1`,
 //! two thirds for a method of first order, whose error falls with `√ERROR`. Where the longest step and
 //! not ERROR limits the steps (or FIXIT gives their length), those of the second run are a third, and the
-//! difference is two thirds of the error at first order, more at higher ones. Twice the difference is taken, which covers all of these.
+//! difference is two thirds of the error at first order, more at higher ones. Twice the difference is taken,
+//! which covers all of these; and more where a tenth of ERROR is not a tenth of what steps may make of it, as
+//! towards rounding, so that the difference is a smaller part of the error.
 
 use nalgebra::Vector3;
 
@@ -18,7 +20,7 @@ use crate::snapshot::Snapshot;
 const TIGHTER: f64 = 0.1;
 /// Part that it has of the longest step and of a first one that is given.
 const SHORTER: f64 = 1.0 / 3.0;
-/// Error of a run for a difference of one from the second run.
+/// Error of a run for a difference of one from the second run, whose steps make a tenth of the error.
 const SAFETY: f64 = 2.0;
 /// Errors of a step that a run may be off before it counts as inaccurate.
 const ACCURATE: f64 = 100.0;
@@ -38,6 +40,13 @@ impl Settings {
             shortest_step: TIGHTER * self.shortest_step,
             ..*self
         }
+    }
+
+    /// Error of a run with these for a difference of one from the second run: so much that a method of
+    /// first order has it to spare as with a tenth of the error of a step.
+    fn safety(&self) -> f64 {
+        let part = self.tighter().motion_error() / self.motion_error();
+        SAFETY * (1.0 - TIGHTER.sqrt()) / (1.0 - part.sqrt())
     }
 }
 
@@ -94,15 +103,27 @@ pub struct StepError {
     pub distance: f64,
     /// Of orientations, radians.
     pub rotation: f64,
+    /// Error of the run for a difference of one from the second run.
+    pub safety: f64,
 }
 
 impl StepError {
-    /// Of an integrator with the tolerance `error`, for a model with this typical length.
+    /// With the tolerance `error`, for a model with this typical length.
     #[must_use]
     pub fn new(error: f64, length: f64) -> Self {
         Self {
             distance: error * length,
             rotation: error,
+            safety: SAFETY,
+        }
+    }
+
+    /// Of an integrator with these settings.
+    #[must_use]
+    pub fn of(settings: &Settings, length: f64) -> Self {
+        Self {
+            safety: settings.safety(),
+            ..Self::new(settings.error, length)
         }
     }
 }
@@ -127,6 +148,8 @@ pub struct Deviation {
     pub difference: f64,
     /// One error of a step, length or radians.
     pub step_error: f64,
+    /// Error of the run for a difference of one.
+    pub safety: f64,
     /// When.
     pub time: f64,
 }
@@ -141,13 +164,13 @@ impl Deviation {
     /// The error of the run that follows from it, length or radians.
     #[must_use]
     pub fn estimate(&self) -> f64 {
-        SAFETY * self.difference
+        self.safety * self.difference
     }
 
     /// The same in errors of a step.
     #[must_use]
     pub fn estimated_errors(&self) -> f64 {
-        SAFETY * self.errors()
+        self.safety * self.errors()
     }
 
     /// Whether it is more than a hundred errors of a step.
@@ -214,6 +237,7 @@ impl Comparison {
                 body,
                 difference,
                 step_error,
+                safety: error.safety,
                 time,
             };
             let distance = of(Motion::Distance, (r - s).norm(), error.distance);
@@ -295,6 +319,33 @@ mod tests {
         let spread = comparison.frictions[0][1];
         assert_eq!((spread.difference, spread.magnitude), (1.0, 4.0));
         assert!((comparison.states[0].difference - 0.2).abs() < 1e-15);
+    }
+
+    /// Towards rounding steps of index 3 may make more than a tenth of ERROR, and those of the second run
+    /// then less than ten times less: of an error that falls with the root of it less is seen.
+    #[test]
+    fn less_difference_tells_of_as_much_error() {
+        for (power, part) in [(-5, 0.1), (-7, 0.1_f64.sqrt())] {
+            let settings = Settings {
+                formulation: crate::Formulation::Newmark {
+                    beta: 0.36,
+                    gamma: 0.7,
+                },
+                error: 10f64.powi(power),
+                highest_order: 5,
+                longest_step: 0.1,
+                shortest_step: 1e-7,
+                first_step: None,
+                corrector: crate::Corrector::default(),
+                interpolates: true,
+            };
+            let seen = 1.0 - part.sqrt();
+            let told = StepError::of(&settings, 1.0).safety * seen;
+            assert!(
+                (told - SAFETY * (1.0 - TIGHTER.sqrt())).abs() < 1e-12,
+                "{told}"
+            );
+        }
     }
 
     #[test]

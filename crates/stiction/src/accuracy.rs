@@ -58,7 +58,7 @@ pub struct BodyDeviation {
     pub body: Label,
     /// Difference of both runs, in `unit`.
     pub difference: f64,
-    /// The error that follows from it: twice the difference.
+    /// The error that follows from it: twice the difference, or more towards rounding.
     pub estimate: f64,
     /// One error of a step: ERROR times the length of the mechanism for a distance, ERROR radians for a
     /// rotation.

@@ -68,6 +68,8 @@ pub(crate) struct First {
     /// say): what a simulation has left is not the fault of the next one.
     error: f64,
     exponent: Option<f64>,
+    /// Error of a run with it for a difference of one.
+    safety: f64,
 }
 
 impl Drop for First {
@@ -102,6 +104,7 @@ pub(crate) fn beside(
         comparison: Comparison::default(),
         unmatched: 0,
         failure: None,
+        safety: 0.0,
         step_error: StepError::new(0.0, 0.0),
         length: 1.0,
         error: 0.0,
@@ -170,6 +173,7 @@ impl Role {
             Self::First(first) => {
                 if settings.error >= first.error {
                     first.error = settings.error;
+                    first.safety = StepError::of(&settings, length).safety;
                     // Errors of steps, the square of the step for NEWMARK and its cube for HHT, add up to
                     // those of a run, which are a power of the step less; formulas of higher order are
                     // not worse.
@@ -181,7 +185,10 @@ impl Role {
                     first.exponent = (!fixed).then_some(exponent);
                 }
                 first.length = length;
-                first.step_error = StepError::new(first.error, length);
+                first.step_error = StepError {
+                    safety: first.safety,
+                    ..StepError::new(first.error, length)
+                };
                 settings
             }
             Self::Second(_) => settings.tighter(),
@@ -331,6 +338,7 @@ mod tests {
             comparison: Comparison::default(),
             unmatched: 0,
             failure: None,
+            safety: 2.0,
             step_error: StepError::new(1e-3, 1.0),
             length: 1.0,
             error: 1e-3,

@@ -209,7 +209,7 @@ fn measure(model: &Model, entry: &Entry, friction: Choice) -> Result<Block, Stri
 /// Whether the check of accuracy warns of a run: by a second run, or because that does not come to its end.
 fn warned(model: &Model, entry: &Entry, settings: &mechanics::Settings, track: &Track) -> bool {
     Track::of(model, entry.end, &settings.tighter(), MOST_SECOND_STEPS)
-        .map_or(true, |second| track.is_inaccurate(&second, settings.error))
+        .map_or(true, |second| track.is_inaccurate(&second, settings))
 }
 
 fn rows(

@@ -60,19 +60,20 @@ impl Track {
     /// The largest distance of a body from where `other` has it, as a part of the length of the
     /// mechanism, or its largest rotation from there in radians.
     pub(super) fn distance(&self, other: &Self) -> f64 {
-        let largest = self.compared(other, 1.0).largest();
+        let error = StepError::new(1.0, self.length);
+        let largest = self.compared(other, error).largest();
         largest.map_or(0.0, |largest| largest.errors())
     }
 
-    /// Whether the check of accuracy finds it inaccurate for the tolerance `error` by a second run.
-    pub(super) fn is_inaccurate(&self, second: &Self, error: f64) -> bool {
+    /// Whether the check of accuracy finds a run with these settings inaccurate by a second run.
+    pub(super) fn is_inaccurate(&self, second: &Self, settings: &Settings) -> bool {
+        let error = StepError::of(settings, self.length);
         let largest = self.compared(second, error).largest();
         largest.is_some_and(|largest| largest.is_inaccurate())
     }
 
-    fn compared(&self, other: &Self, error: f64) -> Comparison {
+    fn compared(&self, other: &Self, error: StepError) -> Comparison {
         let mut comparison = Comparison::default();
-        let error = StepError::new(error, self.length);
         for (here, there) in self.outputs.iter().zip(&other.outputs) {
             comparison.add(here, there, error);
         }
