@@ -2,7 +2,7 @@
 
 use crate::equation::{Axis, Equation, Local};
 use crate::expression::Input;
-use crate::model::{Element, JointKind, Level, Model, MotionFreedom};
+use crate::model::{Element, JointKind, Level, Marker, Model, MotionFreedom};
 use serde::{Deserialize, Serialize};
 
 /// The element that a constraint equation belongs to, by its place in the model's lists.
@@ -63,29 +63,46 @@ pub(crate) struct Evaluated {
     /// Value that it prescribes for `G u̇`, for a pair without the part `Ġ u` of its markers: see
     /// [`crate::system::System::prescribe_accelerations`].
     pub(crate) unbiased_acceleration: f64,
-    /// `G` by body, in the order of [`Constraint::bodies`].
-    pub(crate) jacobian: Vec<[f64; 6]>,
+    /// Bodies of the two markers of a pair.
+    sides: [Option<usize>; 2],
     /// `G` over the local motions of its two markers, for a pair.
     pub(crate) local: Local,
+    /// `G` of a function by body, in the order of [`Constraint::bodies`].
+    pub(crate) jacobian: Vec<[f64; 6]>,
 }
 
 impl Evaluated {
-    pub(crate) fn new(bodies: usize) -> Self {
+    /// Of a constraint on bodies that are yet to be evaluated.
+    pub(crate) fn new(constraint: &Constraint, markers: &[Marker]) -> Self {
+        let (sides, blocks) = match constraint.form {
+            Form::Pair { i, j, .. } => ([i, j].map(|marker| markers[marker].body), 0),
+            Form::Function => ([None; 2], constraint.bodies.len()),
+        };
         Self {
             error: 0.0,
             rate: 0.0,
             unbiased_acceleration: 0.0,
-            jacobian: vec![[0.0; 6]; bodies],
+            sides,
             local: Local::zeros(),
+            jacobian: vec![[0.0; 6]; blocks],
         }
     }
 
+    /// `G` by body, in the order of [`Constraint::bodies`].
+    pub(crate) fn blocks<'a>(
+        &'a self,
+        constraint: &'a Constraint,
+    ) -> impl Iterator<Item = (usize, &'a [f64; 6])> {
+        let local = self.sides.iter().zip(self.local.as_slice().as_chunks().0);
+        let pair = local.filter_map(|(body, block)| Some(((*body)?, block)));
+        let function = self.jacobian.iter().enumerate();
+        pair.chain(function.map(|(k, block)| (constraint.bodies[k], block)))
+    }
+
     /// `G u`.
-    pub(crate) fn rate_of(&self, bodies: &[usize], velocities: &[f64]) -> f64 {
-        bodies
-            .iter()
-            .zip(&self.jacobian)
-            .map(|(&body, row)| {
+    pub(crate) fn rate_of(&self, constraint: &Constraint, velocities: &[f64]) -> f64 {
+        self.blocks(constraint)
+            .map(|(body, row)| {
                 row.iter()
                     .zip(&velocities[6 * body..])
                     .map(|(g, u)| g * u)

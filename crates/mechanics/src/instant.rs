@@ -256,8 +256,8 @@ impl Instant {
         }
         system.prescribe_accelerations(&mut self.right[n..]);
         for (right, &place) in self.right[n..].iter_mut().zip(&system.rows) {
-            let bodies = &system.constraints[place].bodies;
-            *right -= system.evaluated[place].rate_of(bodies, accelerations);
+            let constraint = &system.constraints[place];
+            *right -= system.evaluated[place].rate_of(constraint, accelerations);
         }
         let first = n + system.row_count();
         system.algebraic_residual(multipliers, &mut self.right[first..]);

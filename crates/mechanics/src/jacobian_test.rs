@@ -428,7 +428,7 @@ impl Residual {
         for (row, &place) in self.system.rows.iter().enumerate() {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
-            let rate = evaluated.rate_of(&constraint.bodies, state.velocities()) - evaluated.rate;
+            let rate = evaluated.rate_of(constraint, state.velocities()) - evaluated.rate;
             let position = self.rows == Rows::Position && constraint.level == Level::Position;
             residual[n + row] = if position {
                 evaluated.error / self.gamma

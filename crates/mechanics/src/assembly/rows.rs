@@ -97,12 +97,12 @@ impl System {
                 continue;
             }
             let (scale, quantity) = scale_of(constraint.form, evaluated, length);
-            let blocks = constraint.bodies.iter().zip(&evaluated.jacobian);
+            let blocks = evaluated.blocks(constraint);
             rows.push(Row {
                 error: scale * evaluated.error,
                 rate: scale * evaluated.rate,
                 blocks: blocks
-                    .map(|(&body, g)| (body, scaled(g, scale, length)))
+                    .map(|(body, g)| (body, scaled(g, scale, length)))
                     .collect(),
                 in_position: constraint.level == Level::Position,
                 in_velocity: constraint.level != Level::Acceleration,

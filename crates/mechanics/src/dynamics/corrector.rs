@@ -128,8 +128,8 @@ impl Dynamics {
         }
         let reaction = |row: usize| {
             let place = self.system.rows[row];
-            let jacobian = &self.system.evaluated[place].jacobian;
-            let pushed = jacobian.iter().flatten().enumerate();
+            let blocks = self.system.evaluated[place].blocks(&self.system.constraints[place]);
+            let pushed = blocks.flat_map(|(_, block)| block).enumerate();
             pushed.fold(0.0_f64, |most, (k, g)| most.max(g.abs() * unit(k)))
         };
         let rows = self.system.row_count();

@@ -50,7 +50,7 @@ impl Dynamics {
         for (row, &place) in self.system.rows.iter().enumerate() {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
-            let of = |u: &[f64]| evaluated.rate_of(&constraint.bodies, u);
+            let of = |u: &[f64]| evaluated.rate_of(constraint, u);
             self.right[n + row] = match (constraint.level, self.present) {
                 (Level::Acceleration, _) | (_, Index::One) => {
                     gamma * self.prescribed[row] - of(&self.change)

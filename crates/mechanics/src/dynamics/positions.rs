@@ -69,7 +69,7 @@ impl Dynamics {
         for (row, &place) in self.system.rows.iter().enumerate() {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
-            let moved = gamma * evaluated.rate_of(&constraint.bodies, &self.right[..n]);
+            let moved = gamma * evaluated.rate_of(constraint, &self.right[..n]);
             self.position_right[n + row] = if constraint.level == Level::Position {
                 -evaluated.error - moved
             } else {

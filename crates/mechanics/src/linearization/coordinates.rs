@@ -202,8 +202,7 @@ fn constraint_rows(system: &System, axes: &Matrix3<f64>) -> DMatrix<f64> {
     let mut rows = DMatrix::zeros(system.row_count(), system.velocity_count());
     for (row, &place) in system.rows.iter().enumerate() {
         let evaluated = &system.evaluated[place];
-        let bodies = &system.constraints[place].bodies;
-        for (&body, block) in bodies.iter().zip(&evaluated.jacobian) {
+        for (body, block) in evaluated.blocks(&system.constraints[place]) {
             for k in 0..VELOCITIES {
                 rows[(row, VELOCITIES * body + k)] = block[k];
             }

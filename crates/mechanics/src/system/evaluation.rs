@@ -65,7 +65,7 @@ impl System {
             *lack = if constraint.level == Level::Acceleration {
                 0.0
             } else {
-                evaluated.rate - evaluated.rate_of(&constraint.bodies, velocities)
+                evaluated.rate - evaluated.rate_of(constraint, velocities)
             };
         }
     }
@@ -150,9 +150,9 @@ impl System {
 
     /// `G u` with the velocities of the bodies as they were evaluated last.
     pub(crate) fn rate_along(&self, constraint: &Constraint, evaluated: &Evaluated) -> f64 {
-        let blocks = constraint.bodies.iter().zip(&evaluated.jacobian);
-        blocks
-            .map(|(&body, row)| {
+        evaluated
+            .blocks(constraint)
+            .map(|(body, row)| {
                 let frame = &self.bodies[body];
                 (0..3)
                     .map(|k| row[k] * frame.velocity[k] + row[3 + k] * frame.omega[k])

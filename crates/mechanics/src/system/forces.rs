@@ -40,11 +40,7 @@ impl System {
         }
         for (row, &place) in self.rows.iter().enumerate() {
             let evaluated = &self.evaluated[place];
-            for (&body, block) in self.constraints[place]
-                .bodies
-                .iter()
-                .zip(&evaluated.jacobian)
-            {
+            for (body, block) in evaluated.blocks(&self.constraints[place]) {
                 for k in 0..6 {
                     out[6 * body + k] += multipliers[row] * block[k];
                 }

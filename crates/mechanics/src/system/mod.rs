@@ -137,7 +137,7 @@ impl System {
         let constraints = list(&model);
         let evaluated = constraints
             .iter()
-            .map(|c| Evaluated::new(c.bodies.len()))
+            .map(|constraint| Evaluated::new(constraint, &model.markers))
             .collect();
         let reactions = model
             .frictions

@@ -109,7 +109,7 @@ impl System {
             let (Form::Function, Some(row)) = (constraint.form, constraint.row) else {
                 continue;
             };
-            for (&body, block) in constraint.bodies.iter().zip(&evaluated.jacobian) {
+            for (body, block) in evaluated.blocks(constraint) {
                 matrix.add_block(n + row, 6 * body, &[*block]);
                 matrix.add_block(6 * body, n + row, &block.map(|g| [-g]));
             }

@@ -60,11 +60,6 @@ impl System {
                     rotations.fill(0.0);
                 }
             }
-            let blocks = evaluated.local.as_slice().as_chunks::<6>().0.iter();
-            let present = blocks.zip(&sides).filter(|(_, body)| body.is_some());
-            for (into, (block, _)) in evaluated.jacobian.iter_mut().zip(present) {
-                *into = *block;
-            }
             evaluated.error = value;
             evaluated.rate = 0.0;
             evaluated.unbiased_acceleration = 0.0;

@@ -50,7 +50,7 @@ impl System {
         evaluated: &Evaluated,
     ) -> Wrench {
         let mut sum = Wrench::default();
-        for (&body, block) in constraint.bodies.iter().zip(&evaluated.jacobian) {
+        for (body, block) in evaluated.blocks(constraint) {
             let force = Vector3::new(block[0], block[1], block[2]);
             let arm = self.bodies[body].centre - marker.origin;
             let torque = Vector3::new(block[3], block[4], block[5]) + arm.cross(&force);

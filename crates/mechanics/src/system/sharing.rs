@@ -303,10 +303,10 @@ impl System {
 
     /// `Ĝ` times `z` (`first` zero) or `y` (six) for one equation.
     fn shared_along(&self, shared: &Shared, unknowns: &[f64], first: usize) -> f64 {
-        let bodies = self.constraints[shared.constraint].bodies.iter();
-        let blocks = bodies.zip(&self.evaluated[shared.constraint].jacobian);
+        let constraint = &self.constraints[shared.constraint];
+        let blocks = self.evaluated[shared.constraint].blocks(constraint);
         blocks
-            .map(|(&body, block)| {
+            .map(|(body, block)| {
                 let from = self.sharing.body(body) + first;
                 let block = self.sharing.scaled(shared, block);
                 (0..6).map(|k| block[k] * unknowns[from + k]).sum::<f64>()
@@ -355,8 +355,8 @@ impl System {
                 }
                 Part::Dropped(part) => out[part] = along - unknowns[part],
             }
-            let blocks = self.constraints[shared.constraint].bodies.iter();
-            for (&body, block) in blocks.zip(&self.evaluated[shared.constraint].jacobian) {
+            let constraint = &self.constraints[shared.constraint];
+            for (body, block) in self.evaluated[shared.constraint].blocks(constraint) {
                 let from = self.sharing.body(body);
                 let block = self.sharing.scaled(shared, block);
                 for k in 0..6 {
@@ -402,8 +402,8 @@ impl System {
                 }
                 Part::Dropped(part) => matrix.add(first + part, first + part, 1.0),
             }
-            let blocks = self.constraints[shared.constraint].bodies.iter();
-            for (&body, block) in blocks.zip(&self.evaluated[shared.constraint].jacobian) {
+            let constraint = &self.constraints[shared.constraint];
+            for (body, block) in self.evaluated[shared.constraint].blocks(constraint) {
                 let from = first + self.sharing.body(body);
                 let block = self.sharing.scaled(shared, block);
                 let opposite = block.map(|g| -g);
