@@ -8,6 +8,7 @@ use crate::state::{POSITIONS, VELOCITIES};
 const SHORTEST_TESTED: f64 = 1e-3;
 
 /// The largest of some sizes and its place; what is not a number stays.
+#[derive(Clone, Copy, Default)]
 struct Largest {
     size: f64,
     place: usize,
@@ -19,6 +20,20 @@ impl Largest {
             (self.size, self.place) = (size, place);
         }
     }
+
+    /// The largest of what is measured in lengths and in angles: of `N` numbers a body the first three,
+    /// and the others. `units` are those of the two, `first` is the place of the first number.
+    fn take_motions<const N: usize>(&mut self, motions: &[f64], first: usize, units: [f64; 2]) {
+        let mut largest = [Self::default(); 2];
+        for (body, motion) in motions.as_chunks::<N>().0.iter().enumerate() {
+            for (k, d) in motion.iter().enumerate() {
+                largest[usize::from(k >= 3)].take(d.abs(), first + N * body + k);
+            }
+        }
+        for (largest, unit) in largest.into_iter().zip(units) {
+            self.take(largest.size / unit, largest.place);
+        }
+    }
 }
 
 impl Dynamics {
@@ -27,16 +42,11 @@ impl Dynamics {
     pub(crate) fn largest_error(&mut self, difference: &[f64]) -> (f64, usize) {
         let places = POSITIONS * self.system.model.bodies.len();
         let (length, rate) = (self.scales.length, self.scales.rate);
-        let mut largest = Largest {
-            size: 0.0,
-            place: 0,
-        };
+        let mut largest = Largest::default();
         let (tolerance, allowed) = (self.tolerance(), self.position_tolerance());
-        for (k, d) in difference[..places].iter().enumerate() {
-            // A rotation is twice the change of its quaternion.
-            let unit = if k % POSITIONS < 3 { length } else { 0.5 };
-            largest.take(d.abs() / (unit * allowed), k);
-        }
+        // A rotation is twice the change of its quaternion.
+        let units = [length * allowed, 0.5 * allowed];
+        largest.take_motions::<POSITIONS>(&difference[..places], 0, units);
         let velocities = &difference[places..self.state.motions()];
         let (velocities, allowed): (&[f64], f64) =
             if self.present != Index::Three || self.formulation.tests_velocities() {
@@ -48,10 +58,8 @@ impl Dynamics {
                 (&[], allowed)
             };
         let scale = rate + self.left_of_velocities;
-        for (k, d) in velocities.iter().enumerate() {
-            let unit = if k % VELOCITIES < 3 { length } else { 1.0 };
-            largest.take(d.abs() / (unit * scale * allowed), places + k);
-        }
+        let units = [length * scale * allowed, scale * allowed];
+        largest.take_motions::<VELOCITIES>(velocities, places, units);
         let states = self.state.state_range();
         let scales = self.state_scales.iter().zip(self.state.states());
         for ((k, d), (scale, now)) in states.clone().zip(&difference[states]).zip(scales) {

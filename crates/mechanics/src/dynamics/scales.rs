@@ -25,14 +25,7 @@ pub(crate) struct Scales {
 impl Scales {
     /// Raises the rate to that of the velocities.
     pub(crate) fn observe(&mut self, velocities: &[f64]) {
-        for (k, u) in velocities.iter().enumerate() {
-            let rate = if k % 6 < 3 {
-                u.abs() / self.length
-            } else {
-                u.abs()
-            };
-            self.rate = self.rate.max(rate);
-        }
+        self.rate = self.rate.max(self.largest(velocities));
     }
 
     /// The largest of the motions of bodies, six numbers each, in units of the typical length and of
