@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::process::Command;
 
-use super::matched::time_at;
+use super::matched::{Matched, time_at};
 use super::tables::{cell, names, section};
 use super::work_precision::Measured;
 
@@ -40,6 +40,9 @@ const fn target(case: &'static str, peer: &'static str, error: f64, least: f64) 
     }
 }
 
+/// The most milliseconds that our best integrator is to take for a case, at an error.
+const LIMITS: [(&str, f64, f64); 2] = [("lugre-pendulum", 1e-4, 45.0), ("stick-slip", 1e-5, 50.0)];
+
 /// The page; `others` are the sections before the cases, `versions` those of the peers.
 pub(crate) fn page(measured: &[Measured], others: &str, versions: Option<&str>) -> String {
     let mut text = format!(
@@ -56,6 +59,21 @@ pub(crate) fn page(measured: &[Measured], others: &str, versions: Option<&str>) 
     for target in &TARGETS {
         text += &ratio(target, measured);
     }
+    text += "\n## Times\n\nThe time of our best integrator at an error.\n\n\
+             | case | error | ours, ms | aimed at | |\n|---|---|---|---|---|\n";
+    for (case, error, most) in LIMITS {
+        let ours = best(measured, case, error, |name| !is_peer(name));
+        let verdict = match ours {
+            Some(ours) if 1e3 * ours.time <= most => "met",
+            Some(_) => "**short**",
+            None => "**not measured**",
+        };
+        let _ = writeln!(
+            text,
+            "| `{case}` | {error:.0e} | {} | {most} | {verdict} |",
+            cell(ours)
+        );
+    }
     text += "\n";
     text += others;
     for case in measured {
@@ -65,19 +83,27 @@ pub(crate) fn page(measured: &[Measured], others: &str, versions: Option<&str>) 
     text
 }
 
+fn is_peer(name: &str) -> bool {
+    name.starts_with("Exudyn") || name.starts_with("MuJoCo")
+}
+
+/// The least time of the chosen integrators or peers at an error.
+fn best(
+    measured: &[Measured],
+    case: &str,
+    error: f64,
+    chosen: impl Fn(&str) -> bool,
+) -> Option<Matched> {
+    let case = measured.iter().find(|m| m.case.name == case)?;
+    let all = names(&case.rows).into_iter().filter(|name| chosen(name));
+    let times = all.filter_map(|name| time_at(&case.rows, name, error));
+    times.min_by(|a, b| a.time.total_cmp(&b.time))
+}
+
 fn ratio(target: &Target, measured: &[Measured]) -> String {
-    let best = |of_peer: bool| {
-        let case = measured.iter().find(|m| m.case.name == target.case)?;
-        let is_peer = |name: &str| name.starts_with("Exudyn") || name.starts_with("MuJoCo");
-        let chosen = |name: &str| match of_peer {
-            true => name.starts_with(target.peer),
-            false => !is_peer(name),
-        };
-        let all = names(&case.rows).into_iter().filter(|name| chosen(name));
-        let times = all.filter_map(|name| time_at(&case.rows, name, target.error));
-        times.min_by(|a, b| a.time.total_cmp(&b.time))
-    };
-    let (ours, peer) = (best(false), best(true));
+    let (case, error) = (target.case, target.error);
+    let ours = best(measured, case, error, |name| !is_peer(name));
+    let peer = best(measured, case, error, |name| name.starts_with(target.peer));
     let (found, verdict) = match (ours, peer) {
         (Some(ours), Some(peer)) => {
             let ratio = peer.time / ours.time;
