@@ -22,13 +22,11 @@ impl Dynamics {
         self.factors
             .solve_two(&mut self.right, &mut self.position_right);
         self.state.displace(&self.position_right[..moving]);
-        let mut largest = 0.0_f64;
-        for k in 0..moving {
-            self.state.velocities_mut()[k] += self.right[k];
-            let unit = if k % 6 < 3 { self.scales.length } else { 1.0 };
-            let moved = self.position_right[k].abs() / unit;
-            largest = largest.max(moved.max(self.right[k].abs() / (unit * self.scales.rate)));
-        }
+        let corrections = self.state.velocities_mut().iter_mut().zip(&self.right);
+        corrections.for_each(|(u, correction)| *u += correction);
+        let moved = self.scales.largest(&self.position_right[..moving]);
+        let changed = self.scales.largest(&self.right[..moving]) / self.scales.rate;
+        let largest = moved.max(changed);
         if largest > EVALUATED_ANEW * self.motion_error {
             self.system.evaluate(&self.state, false);
         }

@@ -91,13 +91,12 @@ const UNSET: bdf::Settings = bdf::Settings {
 impl Engine {
     fn new(simulation: &Simulation) -> Self {
         let system = &simulation.system;
-        let size = simulation.state.share_range().start + system.switch_count();
         Self {
             before: simulation.statistics,
             instant: Instant::new(system),
             dynamics: Dynamics::new(system.clone(), simulation.scales),
             gains: GainWatch::new(system),
-            bdf: Bdf::new(size, UNSET),
+            bdf: Bdf::new(simulation.value_count(), UNSET),
             crossing: Crossing::NONE,
             stiffness: Stiffness::default(),
             left: None,
@@ -165,9 +164,14 @@ impl Simulation {
         outcome
     }
 
+    /// Number of values that are integrated, with the shares of switches.
+    fn value_count(&self) -> usize {
+        self.state.share_range().start + self.system.switch_count()
+    }
+
     /// The engine of the present equations.
     fn take_engine(&mut self) -> Engine {
-        let size = self.state.share_range().start + self.system.switch_count();
+        let size = self.value_count();
         let kept = self.engine.take();
         kept.filter(|engine| engine.bdf.value().len() == size)
             .unwrap_or_else(|| Engine::new(self))

@@ -13,6 +13,8 @@ use serde::{Deserialize, Serialize};
 use super::clock::Clock;
 use super::integrators::FOR_REFERENCES;
 
+/// A step of ten times as many bodies is to take at most so many times as long.
+const MOST_TIMES: f64 = 12.0;
 /// Steps before the measured ones: in them the order of the pivots is searched.
 const FIRST_STEPS: usize = 4;
 /// Steps times bodies that are measured, within `FEWEST` and `MOST`.
@@ -182,12 +184,17 @@ pub(crate) fn section(quick: bool) -> Result<String, String> {
             text += &line(row);
         }
         if let (Some(smaller), Some(larger)) = (rows.get(2), rows.get(3)) {
+            let times = larger.step / smaller.step;
+            let verdict = if times <= MOST_TIMES {
+                "met"
+            } else {
+                "**short**"
+            };
             let _ = writeln!(
                 text,
-                "\nA step of {} bodies takes {:.1} times one of {}; at most 12 is aimed at.",
-                larger.bodies,
-                larger.step / smaller.step,
-                smaller.bodies
+                "\nA step of {} bodies takes {times:.1} times one of {}; at most {MOST_TIMES} is aimed at: \
+                 {verdict}.",
+                larger.bodies, smaller.bodies
             );
         }
         text += "\n";
