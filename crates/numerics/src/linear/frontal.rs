@@ -31,8 +31,6 @@ struct Eliminated {
     size: usize,
     /// Where its rows and columns start in the lists of these.
     ids: usize,
-    /// Where its factors start.
-    factors: usize,
 }
 
 /// What a front leaves to its parent.
@@ -68,9 +66,11 @@ pub struct FrontalLu {
     /// Rows and columns of every front: pivots first, in their order, then what is left.
     rows: Vec<u32>,
     columns: Vec<u32>,
-    /// By front: the columns of its pivots (upper factor, inverse pivot, multipliers), and of its border
-    /// the part in the pivot rows.
-    factors: Vec<f64>,
+    /// By front and pivot: the multipliers below it. Read once, from the first front to the last.
+    lower: Vec<f64>,
+    /// By front: the columns of its pivots down to the inverse of each, then the parts of the border's
+    /// columns in the pivot rows, last column first. Read once, from the end to the beginning.
+    upper: Vec<f64>,
     row_scale: Vec<f64>,
     /// Units of the unknowns, from the first matrix on that had no pivot without them.
     column_scale: Option<Vec<f64>>,
@@ -82,9 +82,8 @@ pub struct FrontalLu {
     rests: Vec<Rest>,
     rest_values: Vec<f64>,
     delayed: usize,
-    /// Right-hand sides by row, side by side, and the part of them that a front works on.
+    /// Right-hand sides, side by side, in the order of the pivots.
     work: Vec<f64>,
-    local: Vec<f64>,
 }
 
 impl FrontalLu {
@@ -100,7 +99,8 @@ impl FrontalLu {
             eliminated: Vec::new(),
             rows: Vec::new(),
             columns: Vec::new(),
-            factors: Vec::new(),
+            lower: Vec::new(),
+            upper: Vec::new(),
             row_scale: vec![1.0; n],
             column_scale: None,
             dense: Vec::new(),
@@ -110,14 +110,13 @@ impl FrontalLu {
             rest_values: Vec::new(),
             delayed: 0,
             work: Vec::new(),
-            local: Vec::new(),
         }
     }
 
     /// Entries in the factors.
     #[must_use]
     pub fn fill(&self) -> usize {
-        self.factors.len()
+        self.lower.len() + self.upper.len()
     }
 
     /// How often the last factorisation left a pivot to the next front.
@@ -159,7 +158,8 @@ impl FrontalLu {
         self.eliminated.clear();
         self.rows.clear();
         self.columns.clear();
-        self.factors.clear();
+        self.lower.clear();
+        self.upper.clear();
         self.rests.clear();
         self.rest_values.clear();
         self.delayed = 0;
@@ -291,7 +291,6 @@ impl FrontalLu {
             complete,
             size,
             ids,
-            factors: self.factors.len(),
         }
     }
 
@@ -326,11 +325,16 @@ impl FrontalLu {
             front.pivots += 1;
         }
         let (eliminated, left) = self.dense.split_at(front.pivots * n);
-        self.factors.extend_from_slice(eliminated);
+        for (k, column) in eliminated.chunks_exact(n).enumerate() {
+            let (above, below) = column.split_at(k + 1);
+            self.upper.extend_from_slice(above);
+            self.lower.extend_from_slice(below);
+        }
+        for column in left.chunks_exact(n).rev() {
+            self.upper.extend_from_slice(&column[..front.pivots]);
+        }
         for column in left.chunks_exact(n) {
-            let (above, rest) = column.split_at(front.pivots);
-            self.factors.extend_from_slice(above);
-            self.rest_values.extend_from_slice(rest);
+            self.rest_values.extend_from_slice(&column[front.pivots..]);
         }
         front
     }
@@ -383,47 +387,48 @@ impl FrontalLu {
             b.iter().all(|b| b.len() == n),
             "the right-hand side must fit the factored matrix"
         );
-        self.work.resize(N * n, 0.0);
-        let work = self.work.as_chunks_mut::<N>().0;
-        for (k, values) in work.iter_mut().enumerate() {
-            *values = std::array::from_fn(|side| b[side][k]);
-        }
+        self.work.clear();
+        let mut lower = self.lower.as_slice();
         for front in &self.eliminated {
             let rows = &self.rows[front.ids..front.ids + front.size];
-            self.local.clear();
-            let values = rows.iter().map(|&row| work[row as usize]);
-            values.for_each(|values| self.local.extend_from_slice(&values));
-            let local = self.local.as_chunks_mut::<N>().0;
-            let factors = &self.factors[front.factors..];
-            for (k, column) in factors
-                .chunks_exact(front.size)
-                .take(front.pivots)
-                .enumerate()
-            {
+            let start = self.work.len();
+            let values = rows
+                .iter()
+                .map(|&row| std::array::from_fn(|side| b[side][row as usize]));
+            values.for_each(|values: [f64; N]| self.work.extend_from_slice(&values));
+            let local = self.work[start..].as_chunks_mut::<N>().0;
+            for k in 0..front.pivots {
+                let (column, others) = lower.split_at(front.size - 1 - k);
                 let (head, tail) = local.split_at_mut(k + 1);
-                subtract(tail, head[k], &column[k + 1..]);
+                subtract(tail, head[k], column);
+                lower = others;
             }
-            for (&row, values) in rows.iter().zip(local) {
-                work[row as usize] = *values;
+            for (&row, values) in rows.iter().zip(local).skip(front.pivots) {
+                for (side, value) in values.iter().enumerate() {
+                    b[side][row as usize] = *value;
+                }
             }
+            self.work.truncate(start + N * front.pivots);
         }
+        let mut upper = self.upper.as_slice();
+        let mut work = self.work.as_chunks_mut::<N>().0;
         for front in self.eliminated.iter().rev() {
-            let ids = front.ids..front.ids + front.size;
-            let (rows, columns) = (&self.rows[ids.clone()], &self.columns[ids]);
+            let columns = &self.columns[front.ids..front.ids + front.size];
             let (own, border) = columns.split_at(front.pivots);
-            self.local.clear();
-            let values = rows[..front.pivots].iter().map(|&row| work[row as usize]);
-            values.for_each(|values| self.local.extend_from_slice(&values));
-            let local = self.local.as_chunks_mut::<N>().0;
-            let (first, last) = self.factors[front.factors..].split_at(front.pivots * front.size);
-            for (&column, above) in border.iter().zip(last.chunks_exact(front.pivots.max(1))) {
+            let (others, local) = work.split_at_mut(work.len() - front.pivots);
+            work = others;
+            for &column in border {
+                let (others, above) = upper.split_at(upper.len() - front.pivots);
                 let known = std::array::from_fn(|side| b[side][column as usize]);
                 subtract(local, known, above);
+                upper = others;
             }
-            for (k, above) in first.chunks_exact(front.size).enumerate().rev() {
+            for k in (0..front.pivots).rev() {
+                let (others, above) = upper.split_at(upper.len() - 1 - k);
                 let (head, tail) = local.split_at_mut(k);
                 tail[0] = tail[0].map(|value| value * above[k]);
                 subtract(head, tail[0], &above[..k]);
+                upper = others;
             }
             for (&column, values) in own.iter().zip(local) {
                 for (side, value) in values.iter().enumerate() {
