@@ -81,7 +81,7 @@ pub(crate) enum Command {
   stiction run delta.acf
   stiction run pendulum.adm --end 2 --dtout 0.01 -o results
   stiction run delta.acf --set FRICTION/103.MU_STATIC=0.2 --force
-  stiction run delta.acf --check-accuracy
+  stiction run delta.acf --unchecked
   stiction run delta.acf --checkpoint 60
   stiction run delta.acf --checkpoint 60 --resume",
     after_long_help = EXIT_CODES
@@ -129,13 +129,14 @@ pub(crate) struct RunArguments {
     /// What least squares divide torques by, in the model's unit of length [default: its own length]
     #[arg(long, value_name = "L")]
     pub(crate) reaction_length: Option<f64>,
-    /// Tell how accurate the run is, by a second run beside it with a tenth of ERROR
+    /// Leave out the second run that tells how accurate the run is
     ///
-    /// ERROR bounds the error of each step; over a run errors add up, and some motions magnify them. The
-    /// results are those without it. With --checkpoint too, but not with --resume. docs/accuracy.md
-    /// explains what it says.
-    #[arg(long, conflicts_with = "resume")]
-    pub(crate) check_accuracy: bool,
+    /// ERROR bounds the error of each step; over a run errors add up, and some motions magnify them. So a
+    /// run is carried out twice, the second time with a tenth of ERROR in a thread beside it, and the
+    /// difference told; the results are the same without. A resumed run is not checked. docs/accuracy.md
+    /// explains what is told, and what it costs.
+    #[arg(long)]
+    pub(crate) unchecked: bool,
     /// Change an argument before the run; may be repeated
     #[arg(long = "set", value_name = "FRICTION/103.MU_STATIC=0.2")]
     pub(crate) changes: Vec<String>,
@@ -173,6 +174,13 @@ pub(crate) struct RunArguments {
     pub(crate) resume: bool,
     #[command(flatten)]
     pub(crate) levels: LevelArguments,
+}
+
+impl RunArguments {
+    /// Whether a second run tells how accurate the run is; there is none of a run that is resumed.
+    pub(crate) fn check_accuracy(&self) -> bool {
+        !self.unchecked && !self.resume
+    }
 }
 
 /// Reads a method by its name.

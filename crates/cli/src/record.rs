@@ -73,7 +73,7 @@ fn options(arguments: &RunArguments) -> Value {
         "reactions": arguments.reactions.name(),
         "reaction_length": arguments.reaction_length,
         "integrator": arguments.integrator.map(stiction::Method::name),
-        "check_accuracy": arguments.check_accuracy,
+        "check_accuracy": arguments.check_accuracy(),
         "set": arguments.changes,
     })
 }

@@ -65,7 +65,7 @@ fn attempt(arguments: &RunArguments) -> Result<Exit, Failure> {
         method: arguments.integrator,
         checkpoint: arguments.checkpoint.map(Duration::from_secs_f64),
         text_results: arguments.formats.contains(&ResultFormat::Res),
-        check_accuracy: arguments.check_accuracy,
+        check_accuracy: arguments.check_accuracy(),
     };
     let formats = arguments.formats.iter();
     let formats: Vec<_> = formats.filter_map(|format| format.of_tables()).collect();
@@ -199,17 +199,15 @@ fn tell(folder: &Path, report: &RunReport, arguments: &RunArguments) {
     }
     text += " run.json\n";
     if report.outcome == Outcome::Interrupted && arguments.checkpoint.is_some() {
-        let without = match arguments.check_accuracy {
-            true => " in the place of --check-accuracy",
-            false => "",
-        };
-        text += &format!("the same command with --resume{without} goes on from here\n");
+        text += "the same command with --resume goes on from here\n";
     }
     for warning in record::beside_the_outcome(report) {
         text += &warning.to_string();
     }
     if let Some(accuracy) = &report.accuracy {
-        text += &format!("\n{accuracy}");
+        text += &format!("{}\n", accuracy.summary());
+    } else if arguments.resume && !arguments.unchecked {
+        text += "how accurate a resumed run is has not been checked\n";
     }
     for modes in &report.modes {
         text += &format!("\n{modes}");

@@ -495,14 +495,7 @@ fn warnings_are_allowed_and_denied_by_their_code() {
 #[test]
 fn how_accurate_a_run_is_comes_with_it() {
     let folder = folder("accuracy", &[("p.adm", PENDULUM)]);
-    let run = [
-        "run",
-        "p.adm",
-        "--dtout",
-        "0.01",
-        "--check-accuracy",
-        "--end",
-    ];
+    let run = ["run", "p.adm", "--dtout", "0.01", "--end"];
     let checked = |more: &[&str]| stiction(&folder, &[&run[..], more].concat());
     let record = |name: &str| json(&std::fs::read(folder.join(name).join("run.json")).unwrap());
     let output = checked(&["1", "--error", "1e-7", "-o", "near"]);
@@ -532,9 +525,14 @@ fn how_accurate_a_run_is_comes_with_it() {
     let accuracy = record("far")["accuracy"].clone();
     assert_eq!(accuracy["accurate"], false);
     assert!(accuracy["inaccurate_from"]["time"].as_f64().unwrap() > 0.0);
-    // Nothing of the second run is in a checkpoint.
-    let output = checked(&["4", "--resume", "--checkpoint", "1", "-o", "far"]);
-    assert_eq!(code(&output), 2);
+    let output = checked(&["4", "--unchecked", "-o", "unchecked"]);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    assert!(record("unchecked")["accuracy"].is_null());
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(!said.contains("accurate"), "{said}");
+    // The results are the same.
+    let results = |name: &str| std::fs::read(folder.join(name).join("p.req")).unwrap();
+    assert_eq!(results("far"), results("unchecked"));
 }
 
 #[test]
@@ -578,14 +576,16 @@ fn an_interrupt_keeps_the_results() {
     let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
     assert_eq!(record["outcome"], "interrupted");
 
-    let asked = ["--check-accuracy", "--force"];
+    let accuracy = &record["accuracy"];
+    assert!(accuracy["outputs"].is_u64() && accuracy["second_failure"].is_null());
+
+    let asked = ["--unchecked", "--force"];
     let run = ["run", "p.adm", "--end", "1e5", "--dtout", "0.1"];
     let running = Running::start(&folder, &[&run[..], &asked].concat());
     assert_eq!(code(&running.interrupt()), 130);
     let record = json(&std::fs::read(folder.join("p-run/run.json")).unwrap());
     assert_eq!(record["outcome"], "interrupted");
-    let accuracy = &record["accuracy"];
-    assert!(accuracy["outputs"].is_u64() && accuracy["second_failure"].is_null());
+    assert!(record["accuracy"].is_null());
 }
 
 #[test]
@@ -617,7 +617,7 @@ fn help_says_what_there_is() {
         "--dtout",
         "--error",
         "--integrator",
-        "--check-accuracy",
+        "--unchecked",
         "--set",
         "--progress",
         "--force",

@@ -159,7 +159,7 @@ class Result:
 
     @property
     def accuracy(self) -> Mapping[str, Any] | None:
-        """How accurate the run is, where `Model.run` was asked to tell: `accurate`, whether the estimate of
+        """How accurate the run is; None where it was not checked. `accurate`, whether the estimate of
         the error stayed within a hundred errors of a step; the largest `distance` and `rotation` of a
         body from a second run with a tenth of ERROR, each with `body`, `difference`, the `estimate` of
         the error (twice that), `unit`, `errors` (the estimate in errors of a step) and `time`;
@@ -310,7 +310,10 @@ class Result:
         }
 
     def __repr__(self) -> str:
-        return f"<Result {self.outcome}: {len(self.time)} outputs of {len(self._columns)} channels>"
+        accuracy = self.accuracy
+        doubt = "" if accuracy is None or accuracy["accurate"] else ", beyond 100 ERROR: see accuracy"
+        channels = len(self._columns)
+        return f"<Result {self.outcome}: {len(self.time)} outputs of {channels} channels{doubt}>"
 
     def _repr_html_(self) -> str:
         stats = self.stats

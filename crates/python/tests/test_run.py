@@ -125,17 +125,22 @@ def test_methods_of_integration_are_chosen_by_name() -> None:
         model.run(end=0.1, integrator="adms")
 
 
-def test_how_accurate_a_run_is_is_told_where_it_is_asked_for() -> None:
+def test_how_accurate_a_run_is_comes_with_it() -> None:
     model = stiction.loads(PENDULUM)
-    alone = model.run(end=1.0, dtout=0.01)
+    alone = model.run(end=1.0, dtout=0.01, check_accuracy=False)
     assert alone.accuracy is None
-    checked = model.run(end=1.0, dtout=0.01, check_accuracy=True)
+    checked = model.run(end=1.0, dtout=0.01)
     np.testing.assert_array_equal(checked.values, alone.values)
     accuracy = checked.accuracy
     assert accuracy is not None and checked.options["check_accuracy"]
     assert accuracy["outputs"] == 100 and accuracy["second_failure"] is None
     estimate = accuracy["distance"]["estimate"]
     assert 0.0 < estimate == 2 * accuracy["distance"]["difference"]
+    far = model.run(end=4.0, dtout=0.01, integrator="NEWMARK, ERROR=1e-5")
+    assert far.success and far.accuracy is not None and not far.accuracy["accurate"]
+    assert "beyond 100 ERROR" in repr(far) and "beyond" not in repr(checked)
+    [warning] = [said for said in far.diagnostics if said.code == "inaccurate"]
+    assert "less accurate than 100 ERROR: PART/2" in warning.message
 
 
 def test_reactions_of_redundant_constraints_are_shared_where_asked() -> None:

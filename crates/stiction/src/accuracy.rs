@@ -139,6 +139,20 @@ impl AccuracyReport {
         self.inaccurate.is_none()
     }
 
+    /// How accurate the bodies are, on one line.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let (Some(distance), Some(rotation)) = (&self.distance, &self.rotation) else {
+            return "accuracy: no output of the second run was there to compare".to_owned();
+        };
+        let word = if self.is_accurate() { "" } else { "only " };
+        format!(
+            "{word}accurate to about {}, {}, by a second run with a tenth of ERROR",
+            distance.words(),
+            rotation.words(),
+        )
+    }
+
     /// What has to be said beside the figures.
     pub(crate) fn messages(&self, project: &Project) -> Vec<Message> {
         let source = project.model_source();
@@ -276,22 +290,10 @@ impl BodyDeviation {
     }
 }
 
-/// One line for the bodies, and a table of frictions and states.
+/// The [`summary`](AccuracyReport::summary), and a table of frictions and states.
 impl std::fmt::Display for AccuracyReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (Some(distance), Some(rotation)) = (&self.distance, &self.rotation) else {
-            return writeln!(
-                f,
-                "accuracy: no output of the second run was there to compare"
-            );
-        };
-        let word = if self.is_accurate() { "" } else { "only " };
-        writeln!(
-            f,
-            "{word}accurate to about {}, {}, by a second run with a tenth of ERROR",
-            distance.words(),
-            rotation.words(),
-        )?;
+        writeln!(f, "{}", self.summary())?;
         if self.elements.is_empty() {
             return Ok(());
         }

@@ -120,7 +120,7 @@ pub enum CheckpointError {
     /// How accurate a run is cannot be told from its midst on.
     #[error(
         "a second run, which tells how accurate a run is, is in no checkpoint; resume without \
-         check-accuracy, or run from the beginning"
+         the check of accuracy, or run from the beginning"
     )]
     CheckedAccuracy,
     /// It cannot be read.

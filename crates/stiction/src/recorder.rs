@@ -382,7 +382,8 @@ impl<W: Write> Observe<'_, '_, W> {
             return;
         }
         let progress = self.progress(snapshot.time());
+        let attempts = progress.statistics.steps.attempts();
         let goes_on = || self.watch.progress(&progress);
-        self.interrupted = !self.recorder.role.output(snapshot, goes_on);
+        self.interrupted = !self.recorder.role.output(snapshot, attempts, goes_on);
     }
 }

@@ -256,7 +256,8 @@ impl<'a> Runner<'a> {
                 statistics: self.simulation.statistics(),
             };
             let role = &mut self.recorder.role;
-            role.completed(|| watch.progress(&progress));
+            let attempts = progress.statistics.steps.attempts();
+            role.completed(attempts, || watch.progress(&progress));
         }
         self.finish(outcome)
     }

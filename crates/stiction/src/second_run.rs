@@ -2,13 +2,15 @@
 //!
 //! Both carry out the command file. The second one writes nothing; it sends what it has at each output
 //! through a channel that holds a few, and the first one waits for it there, so that neither gets far
-//! ahead and no run is kept. Nothing goes the other way but that the first one has ended.
+//! ahead and no run is kept. The other way goes how long the first one will wait.
+
+mod patience;
 
 use std::cmp::Ordering as Order;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
@@ -20,7 +22,8 @@ use mechanics::{
 use results::UnitNames;
 
 use crate::accuracy::{AccuracyReport, SecondFailure, remedy};
-use crate::session::{Outcome, OutputError, Progress, RunOptions, RunReport, Session, Watch};
+use crate::session::{Outcome, OutputError, RunOptions, RunReport, Session};
+use patience::{Patience, Waiting, WhileAwaited, bearable, impatience};
 
 /// Outputs that the second run may be ahead.
 const AHEAD: usize = 4;
@@ -39,25 +42,31 @@ pub(crate) enum Role {
 
 /// What the second run tells.
 enum Told {
-    /// What it has at an output, of the command at a place among the commands.
-    Output { command: usize, moment: Moment },
+    /// What it has at an output, of the command at a place among the commands, after so many attempts
+    /// at steps.
+    Output {
+        command: usize,
+        moment: Moment,
+        attempts: usize,
+    },
     /// What has failed.
     Failed(SecondFailure),
 }
 
 /// The second run's way to the first one.
 pub(crate) struct Second {
-    command: usize,
     told: SyncSender<Told>,
+    patience: Arc<Patience>,
 }
 
 /// The first run's way to the second one, and what came of the comparison.
 pub(crate) struct First {
     command: usize,
-    told: Receiver<Told>,
+    /// None once it has given the second run up.
+    told: Option<Receiver<Told>>,
     /// An output of the second run that waits for that of the first one.
-    next: Option<(usize, Moment)>,
-    over: Arc<AtomicBool>,
+    next: Option<(usize, Moment, usize)>,
+    patience: Arc<Patience>,
     comparison: Comparison,
     unmatched: usize,
     failure: Option<SecondFailure>,
@@ -74,16 +83,7 @@ pub(crate) struct First {
 
 impl Drop for First {
     fn drop(&mut self) {
-        self.over.store(true, Ordering::Relaxed);
-    }
-}
-
-/// Goes on until the first run has ended.
-struct UntilOver(Arc<AtomicBool>);
-
-impl Watch for UntilOver {
-    fn progress(&mut self, _: &Progress) -> bool {
-        !self.0.load(Ordering::Relaxed)
+        self.patience.set(Waiting::Over);
     }
 }
 
@@ -95,12 +95,12 @@ pub(crate) fn beside(
     first: impl FnOnce(Role) -> Result<RunReport, OutputError>,
 ) -> Result<RunReport, OutputError> {
     let (sender, receiver) = sync_channel(AHEAD);
-    let over = Arc::new(AtomicBool::new(false));
+    let patience = Arc::<Patience>::default();
     let mut first_role = First {
         command: 0,
-        told: receiver,
+        told: Some(receiver),
         next: None,
-        over: Arc::clone(&over),
+        patience: Arc::clone(&patience),
         comparison: Comparison::default(),
         unmatched: 0,
         failure: None,
@@ -113,7 +113,7 @@ pub(crate) fn beside(
     thread::scope(|scope| {
         let second = move || {
             let last_word = sender.clone();
-            let run = || second_run(session, folder, options, sender, UntilOver(over));
+            let run = || second_run(session, folder, options, sender, patience);
             let ended = catch_unwind(AssertUnwindSafe(run));
             let cause = ended.unwrap_or_else(|_| Some("it panicked".to_owned()));
             if let Some(cause) = cause {
@@ -137,7 +137,7 @@ fn second_run(
     folder: &Path,
     options: RunOptions,
     told: SyncSender<Told>,
-    mut watch: UntilOver,
+    patience: Arc<Patience>,
 ) -> Option<String> {
     let options = RunOptions {
         checkpoint: None,
@@ -145,7 +145,11 @@ fn second_run(
         check_accuracy: false,
         ..options
     };
-    let role = Role::Second(Second { command: 0, told });
+    let mut watch = WhileAwaited {
+        told: told.clone(),
+        patience: Arc::clone(&patience),
+    };
+    let role = Role::Second(Second { told, patience });
     let runner = session.begin(folder, options, None, role);
     let ran = runner.and_then(|runner| runner.carry_out(&mut watch));
     ran.err().map(|error| error.to_string())
@@ -162,7 +166,7 @@ impl Role {
         match self {
             Self::Alone => {}
             Self::First(first) => first.command = place,
-            Self::Second(second) => second.command = place,
+            Self::Second(second) => second.patience.command.store(place, Ordering::Relaxed),
         }
     }
 
@@ -208,26 +212,32 @@ impl Role {
         }
     }
 
-    /// At an output; `goes_on` is asked now and then while the run waits for the other one. Returns
-    /// whether to go on.
+    /// At an output, after so many attempts at steps; `goes_on` is asked now and then while the run waits
+    /// for the other one. Returns whether to go on.
     pub(crate) fn output(
         &mut self,
         snapshot: &Snapshot<'_>,
+        attempts: usize,
         goes_on: impl FnMut() -> bool,
     ) -> bool {
         match self {
             Self::Alone => true,
-            Self::First(first) => first.output(&Moment::of(snapshot), goes_on),
-            Self::Second(Second { command, told }) => {
-                let (command, moment) = (*command, Moment::of(snapshot));
-                told.send(Told::Output { command, moment }).is_ok()
+            Self::First(first) => first.output(&Moment::of(snapshot), attempts, goes_on),
+            Self::Second(Second { told, patience }) => {
+                let output = Told::Output {
+                    command: patience.command.load(Ordering::Relaxed),
+                    moment: Moment::of(snapshot),
+                    attempts,
+                };
+                told.send(output).is_ok()
             }
         }
     }
 
-    /// The run has come to its end: looks whether the other one does, too.
-    pub(crate) fn completed(&mut self, goes_on: impl FnMut() -> bool) {
+    /// The run has come to its end after so many attempts at steps: looks whether the other one does, too.
+    pub(crate) fn completed(&mut self, attempts: usize, goes_on: impl FnMut() -> bool) {
         if let Self::First(first) = self {
+            first.wait_for(usize::MAX, f64::INFINITY, attempts);
             let another = first.next.is_some() || first.receive(goes_on) == Found::Output;
             first.unmatched += usize::from(another);
         }
@@ -274,12 +284,29 @@ enum Found {
 }
 
 impl First {
+    /// Tells the second run that it is waited for up to a time of a command, where the first one has
+    /// come after so many attempts at steps.
+    fn wait_for(&self, command: usize, time: f64, attempts: usize) {
+        self.patience.set(Waiting::For {
+            command,
+            time,
+            attempts: bearable(attempts),
+        });
+    }
+
     /// Waits for the next output of the second run, which is then in `next`.
     fn receive(&mut self, mut goes_on: impl FnMut() -> bool) -> Found {
+        let Some(told) = &self.told else {
+            return Found::End;
+        };
         loop {
-            match self.told.recv_timeout(LOOK) {
-                Ok(Told::Output { command, moment }) => {
-                    self.next = Some((command, moment));
+            match told.recv_timeout(LOOK) {
+                Ok(Told::Output {
+                    command,
+                    moment,
+                    attempts,
+                }) => {
+                    self.next = Some((command, moment, attempts));
                     return Found::Output;
                 }
                 Ok(Told::Failed(failure)) => {
@@ -293,22 +320,33 @@ impl First {
     }
 
     /// Compares an output with that of the second run at the same time of the same command, where it
-    /// has one; what it has before that is passed over.
-    fn output(&mut self, moment: &Moment, mut goes_on: impl FnMut() -> bool) -> bool {
+    /// has one; what it has before that is passed over. This one is after `attempts` at steps.
+    fn output(
+        &mut self,
+        moment: &Moment,
+        attempts: usize,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> bool {
         loop {
             if self.next.is_none() {
+                self.wait_for(self.command, moment.time(), attempts);
                 match self.receive(&mut goes_on) {
                     Found::Output => {}
                     Found::End => break,
                     Found::Stop => return false,
                 }
             }
-            let Some((command, other)) = &self.next else {
+            let Some((command, other, taken)) = &self.next else {
                 break;
             };
             let commands = command.cmp(&self.command);
             match commands.then(other.time().total_cmp(&moment.time())) {
                 Order::Less => self.unmatched += 1,
+                // It got here before it could know.
+                Order::Equal if *taken > bearable(attempts) => {
+                    self.failure.get_or_insert(impatience(moment.time()));
+                    self.told = None;
+                }
                 Order::Equal => {
                     self.comparison.add(moment, other, self.step_error);
                     self.next = None;
@@ -326,15 +364,16 @@ impl First {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::session::{Progress, Watch};
 
     /// A first run, and the sender of what it is told.
     fn first() -> (First, SyncSender<Told>) {
         let (sender, told) = sync_channel(AHEAD);
         let first = First {
             command: 3,
-            told,
+            told: Some(told),
             next: None,
-            over: Arc::default(),
+            patience: Arc::default(),
             comparison: Comparison::default(),
             unmatched: 0,
             failure: None,
@@ -354,14 +393,23 @@ mod tests {
         Moment::of(&simulation.snapshot())
     }
 
+    /// An output of the second run.
+    fn output(command: usize, time: f64, attempts: usize) -> Told {
+        let moment = moment(time);
+        Told::Output {
+            command,
+            moment,
+            attempts,
+        }
+    }
+
     #[test]
     fn outputs_are_paired_by_command_and_time() {
         let (mut first, sender) = first();
         for (command, time) in [(2, 9.0), (3, 1.0), (3, 2.5), (4, 3.0)] {
-            let moment = moment(time);
-            assert!(sender.send(Told::Output { command, moment }).is_ok());
+            assert!(sender.send(output(command, time, 1)).is_ok());
         }
-        let mut at = |time| first.output(&moment(time), || unreachable!("nothing to wait for"));
+        let mut at = |time| first.output(&moment(time), 1, || unreachable!("nothing to wait for"));
         assert!(at(1.0) && at(2.0) && at(3.0));
         // One of the first has no counterpart at 2 and at 3, one of the second none at 9 and at 2.5.
         assert_eq!((first.comparison.instants, first.unmatched), (1, 4));
@@ -376,7 +424,7 @@ mod tests {
             assert!(sender.send(Told::Failed(failure)).is_ok());
         }
         drop(sender);
-        assert!(first.output(&moment(1.0), || unreachable!("no one to wait for")));
+        assert!(first.output(&moment(1.0), 1, || unreachable!("no one to wait for")));
         let report = Role::First(Box::new(first)).report(&Model::default(), &UnitNames::default());
         let report = report.expect("a report of the first run");
         assert_eq!((report.outputs, report.unmatched), (0, 1));
@@ -390,12 +438,65 @@ mod tests {
     #[test]
     fn an_interrupt_ends_the_wait() {
         let (mut first, sender) = first();
-        assert!(!first.output(&moment(1.0), || false));
-        let over = Arc::clone(&first.over);
+        assert!(!first.output(&moment(1.0), 1, || false));
+        let mut second = WhileAwaited {
+            told: sender.clone(),
+            patience: Arc::clone(&first.patience),
+        };
         drop(first);
         // The second run has no one left to tell.
-        assert!(over.load(Ordering::Relaxed));
-        let moment = moment(1.0);
-        assert!(sender.send(Told::Output { command: 3, moment }).is_err());
+        assert!(!second.progress(&progress(1.0, 1)));
+        assert!(sender.send(output(3, 1.0, 1)).is_err());
+    }
+
+    /// How far a run is at a time after so many steps.
+    fn progress(time: f64, steps: usize) -> Progress {
+        let mut statistics = mechanics::Statistics::default();
+        statistics.steps.steps = steps;
+        Progress {
+            time,
+            end: 9.0,
+            statistics,
+        }
+    }
+
+    /// What is told of the second run is the same, whether it takes too many steps while the first one
+    /// waits or before that.
+    #[test]
+    fn a_second_run_of_too_many_steps_is_given_up() {
+        let told = |waits: bool| {
+            let (mut first, sender) = first();
+            let mut second = WhileAwaited {
+                told: sender.clone(),
+                patience: Arc::clone(&first.patience),
+            };
+            second.patience.command.store(3, Ordering::Relaxed);
+            assert!(sender.send(output(3, 1.0, 1000)).is_ok());
+            assert!(first.output(&moment(1.0), 100, || unreachable!("nothing to wait for")));
+            if waits {
+                first.wait_for(3, 2.0, 200);
+                assert!(second.progress(&progress(1.4, 2000)));
+                // Too many for that output, and not for a later one.
+                assert!(second.progress(&progress(2.0, 2001)));
+                assert!(!second.progress(&progress(1.5, 2001)));
+                drop((second, sender));
+            } else {
+                assert!(second.progress(&progress(1.9, 2001)));
+                assert!(sender.send(output(3, 2.0, 2001)).is_ok());
+                assert!(sender.send(output(3, 3.0, 2002)).is_ok());
+            }
+            for time in [2.0, 3.0] {
+                assert!(first.output(&moment(time), 200, || unreachable!("no one to wait for")));
+            }
+            let role = Role::First(Box::new(first));
+            let report = role.report(&Model::default(), &UnitNames::default());
+            let report = report.expect("a report of the first run");
+            (report.outputs, report.unmatched, report.second_failure)
+        };
+        let (outputs, unmatched, failure) = told(true);
+        let failure = failure.expect("a failure");
+        assert_eq!((outputs, unmatched, failure.time), (1, 2, Some(2.0)));
+        assert!(failure.cause.contains("5 times"), "{}", failure.cause);
+        assert_eq!(told(false), (1, 2, Some(failure)));
     }
 }

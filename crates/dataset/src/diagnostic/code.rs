@@ -208,9 +208,9 @@ codes! {
     BristlesNotPassive = "bristles-not-passive", "Lower DAMPING_COEFFICIENT.";
     /// More energy is unaccounted for than the error of the integrator explains.
     EnergyBalance = "energy-balance", "Give INTEGRATOR a smaller ERROR.";
-    /// With `--check-accuracy`: compared with a second run with a tenth of ERROR, a body is off by more than a hundred times ERROR, which is that of a step.
+    /// Compared with a second run with a tenth of ERROR (none with `--unchecked`), a body is off by more than a hundred times ERROR, which is that of a step.
     Inaccurate = "inaccurate", "Give INTEGRATOR a smaller ERROR; read peaks, energies and periods only where that does not help.";
-    /// With `--check-accuracy`: the second run has failed, or has other outputs, so that not all of the run is compared with it.
+    /// The second run, with a tenth of ERROR, which tells how accurate a run is, has failed or taken too many steps, or has other outputs, so that not all of the run is compared with it.
     AccuracyUnknown = "accuracy-unknown", "Give INTEGRATOR a smaller ERROR, with which events of both runs come at the same outputs; cure what the second run failed of.";
 
     // Studies.

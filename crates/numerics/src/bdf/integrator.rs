@@ -44,6 +44,14 @@ pub struct Statistics {
     pub starts: usize,
 }
 
+impl Statistics {
+    /// Attempts at steps, accepted or not.
+    #[must_use]
+    pub fn attempts(&self) -> usize {
+        self.steps + self.rejections + self.failures
+    }
+}
+
 /// The integrator gave up; the values at the last accepted step are intact.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error<F> {

@@ -142,7 +142,7 @@ fn heading() -> String {
          places. The reference is our own run at {REFERENCE:e}: SI2 for all but backward differentiation, \
          for which it is Adams (SI2 where Adams has none), and I3 with LUGRE; both differ by what is said; \
          Adams goes on by SI2 where bristles are stiff.\n\nThe check of accuracy (docs/accuracy.md: a second run with a tenth \
-         of ERROR, `--check-accuracy`) was made of every cell. A success within {GOOD} ERROR is plain, and one \
+         of ERROR, which the program makes of every run) was made of every cell. A success within {GOOD} ERROR is plain, and one \
          beyond of which the check warns *in italics*; `w` is a warning. One in **bold** is beyond without a \
          warning: a silent failure. `refused` runs say why not, see below; `long` ones were given up after {MOST_STEPS} \
          attempts at steps.\n\nWhat it teaches: NEWMARK with its default GAMMA of 0.7 is of first order and loses \
@@ -152,7 +152,7 @@ fn heading() -> String {
          breaks away, are seen by the error tests of all (docs/decisions/0011), but for bristles in I3, whose \
          rough reactions leave no velocities to test. Singular positions \
          (two four-bars) and positions beside an unstable axis (Dzhanibekov) magnify more than small changes of \
-         the parameters tell, and no test of a step sees that: without the check all in italics would be \
+         the parameters tell, and no test of a step sees that: with `--unchecked` all in italics are \
          silent.\n\n"
     )
 }

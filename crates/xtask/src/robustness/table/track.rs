@@ -90,7 +90,7 @@ impl Observer for Watch {
     fn step(&mut self, report: &StepReport) -> bool {
         self.track.steps = report.statistics.steps.steps;
         let steps = report.statistics.steps;
-        steps.steps + steps.rejections + steps.failures < self.most
+        steps.attempts() < self.most
     }
 
     fn output(&mut self, snapshot: &Snapshot<'_>) -> bool {
