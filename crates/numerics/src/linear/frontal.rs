@@ -11,6 +11,7 @@
 //! of a tree has to find a pivot for all: where it cannot, the matrix is singular.
 
 use super::fronts::Fronts;
+use super::scaling::{row_scale, units};
 use super::{Matrix, Singular};
 use serde::{Deserialize, Serialize};
 
@@ -150,7 +151,8 @@ impl FrontalLu {
     }
 
     fn attempt(&mut self, matrix: &Matrix) -> Result<(), Singular> {
-        self.scale(matrix)?;
+        // Not yet known.
+        self.row_scale.fill(0.0);
         let fronts = match self.fronts.take() {
             Some(fronts) => fronts,
             None => Fronts::new(matrix, &self.groups),
@@ -165,7 +167,13 @@ impl FrontalLu {
         self.delayed = 0;
         let mut singular = None;
         for number in 0..fronts.fronts.len() {
-            let gathered = self.gather(&fronts, number, matrix);
+            let gathered = match self.gather(&fronts, number, matrix) {
+                Ok(gathered) => gathered,
+                Err(not_finite) => {
+                    singular = Some(not_finite);
+                    break;
+                }
+            };
             let values = self.rest_values.len();
             let front = self.eliminate(gathered);
             self.eliminated.push(front);
@@ -187,32 +195,17 @@ impl FrontalLu {
         singular.map_or(Ok(()), Err)
     }
 
-    /// The largest entry of every row, relative to which its pivots count: units differ by row.
-    fn scale(&mut self, matrix: &Matrix) -> Result<(), Singular> {
-        for (row, scale) in self.row_scale.iter_mut().enumerate() {
-            let entries = matrix.row_starts()[row]..matrix.row_starts()[row + 1];
-            let values = &matrix.values()[entries.clone()];
-            let largest = largest(values);
-            if !largest.is_finite() {
-                let bad = values.iter().position(|a| !a.is_finite());
-                let column = matrix.columns()[entries.start + bad.unwrap_or(0)] as usize;
-                return Err(Singular { row, column });
-            }
-            let largest = match &self.column_scale {
-                None => largest,
-                Some(units) => {
-                    let columns = &matrix.columns()[entries];
-                    let scaled = values.iter().zip(columns);
-                    scaled.fold(0.0, |m: f64, (a, &c)| m.max(a.abs() * units[c as usize]))
-                }
-            };
-            *scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        }
-        Ok(())
-    }
-
     /// Adds up a front, from entries of the matrix and what its children left; returns its size.
-    fn gather(&mut self, fronts: &Fronts, number: usize, matrix: &Matrix) -> Eliminated {
+    ///
+    /// Rows are scaled in the front in which they are first, so that large matrices are fetched from memory
+    /// once. They are mostly numbered from the ground outwards and eliminated inwards: from the last row to
+    /// the first, as here, they are fetched ahead.
+    fn gather(
+        &mut self,
+        fronts: &Fronts,
+        number: usize,
+        matrix: &Matrix,
+    ) -> Result<Eliminated, Singular> {
         let front = &fronts.fronts[number];
         let (own, border) =
             fronts.unknowns[front.first..front.first + front.size].split_at(front.own);
@@ -241,6 +234,12 @@ impl FrontalLu {
                 place + late
             }
         };
+        for &row in self.rows[ids..].iter().rev() {
+            let row = row as usize;
+            if self.row_scale[row] == 0.0 {
+                self.row_scale[row] = row_scale(matrix, row, self.column_scale.as_deref())?;
+            }
+        }
         self.scales.clear();
         let rows = self.rows[ids..].iter();
         self.scales
@@ -286,12 +285,12 @@ impl FrontalLu {
             self.rest_values.truncate(first.values);
             self.rests.truncate(first_child);
         }
-        Eliminated {
+        Ok(Eliminated {
             pivots: 0,
             complete,
             size,
             ids,
-        }
+        })
     }
 
     /// Eliminates a front that was gathered as far as it has pivots, and keeps factors and rest.
@@ -437,59 +436,6 @@ impl FrontalLu {
             }
         }
     }
-}
-
-/// Units in which the unknowns of a matrix are of the same size: its masses become one, and its
-/// constraint equations and reactions, which have nothing on the diagonal, follow from the motions that
-/// they bind. The choice of the units of length, mass and time then makes no difference.
-fn units(matrix: &Matrix) -> Vec<f64> {
-    let n = matrix.size();
-    let row = |row: usize| {
-        let entries = matrix.row_starts()[row]..matrix.row_starts()[row + 1];
-        let columns = matrix.columns()[entries.clone()].iter();
-        columns
-            .map(|&column| column as usize)
-            .zip(&matrix.values()[entries])
-    };
-    let diagonal = |k: usize| -> f64 { row(k).filter(|(c, _)| *c == k).map(|(_, a)| a).sum() };
-    let motions: Vec<Option<f64>> = (0..n)
-        .map(|k| Some(diagonal(k).abs().sqrt().recip()).filter(|unit| unit.is_finite()))
-        .collect();
-    let bound = |k: usize| {
-        let largest = row(k).fold(0.0, |m: f64, (column, a)| {
-            m.max(a.abs() * motions[column].unwrap_or(0.0))
-        });
-        if largest > 0.0 { largest.recip() } else { 1.0 }
-    };
-    let units = motions.iter().enumerate();
-    units
-        .map(|(k, unit)| unit.unwrap_or_else(|| bound(k)))
-        .collect()
-}
-
-/// The largest magnitude, and not a number where a value is not finite; in four lanes, which the
-/// processor works on side by side.
-fn largest(values: &[f64]) -> f64 {
-    let (heads, tail) = values.as_chunks::<4>();
-    let mut largest = [0.0_f64; 4];
-    // Zero, unless a value is not finite.
-    let mut check = [0.0_f64; 4];
-    let mut take = |lane: usize, value: f64| {
-        let size = value.abs();
-        largest[lane] = if size > largest[lane] {
-            size
-        } else {
-            largest[lane]
-        };
-        check[lane] += 0.0 * value;
-    };
-    for chunk in heads {
-        for lane in 0..4 {
-            take(lane, chunk[lane]);
-        }
-    }
-    tail.iter().for_each(|&value| take(0, value));
-    largest.iter().fold(0.0, |m: f64, l| m.max(*l)) + check.iter().sum::<f64>()
 }
 
 /// Takes multiples of `b` off every side of `a`.

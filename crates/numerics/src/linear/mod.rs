@@ -11,6 +11,7 @@ mod frontal_test;
 mod fronts;
 mod matrix;
 mod ordering;
+mod scaling;
 
 pub use frontal::FrontalLu;
 pub use matrix::Matrix;
