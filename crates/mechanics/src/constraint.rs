@@ -63,20 +63,26 @@ pub(crate) struct Evaluated {
     /// Value that it prescribes for `G u̇`, for a pair without the part `Ġ u` of its markers: see
     /// [`crate::system::System::prescribe_accelerations`].
     pub(crate) unbiased_acceleration: f64,
-    /// Bodies of the two markers of a pair.
-    sides: [Option<usize>; 2],
+    /// Bodies of the two markers of a pair; [`GROUND`] is none.
+    sides: [u32; 2],
     /// `G` over the local motions of its two markers, for a pair.
     pub(crate) local: Local,
     /// `G` of a function by body, in the order of [`Constraint::bodies`].
-    pub(crate) jacobian: Vec<[f64; 6]>,
+    pub(crate) jacobian: Box<[[f64; 6]]>,
 }
+
+/// No body, where bodies are told by their places.
+const GROUND: u32 = u32::MAX;
 
 impl Evaluated {
     /// Of a constraint on bodies that are yet to be evaluated.
     pub(crate) fn new(constraint: &Constraint, markers: &[Marker]) -> Self {
         let (sides, blocks) = match constraint.form {
-            Form::Pair { i, j, .. } => ([i, j].map(|marker| markers[marker].body), 0),
-            Form::Function => ([None; 2], constraint.bodies.len()),
+            Form::Pair { i, j, .. } => {
+                let body = |marker: usize| markers[marker].body.map_or(GROUND, |b| b as u32);
+                ([i, j].map(body), 0)
+            }
+            Form::Function => ([GROUND; 2], constraint.bodies.len()),
         };
         Self {
             error: 0.0,
@@ -84,7 +90,7 @@ impl Evaluated {
             unbiased_acceleration: 0.0,
             sides,
             local: Local::zeros(),
-            jacobian: vec![[0.0; 6]; blocks],
+            jacobian: vec![[0.0; 6]; blocks].into(),
         }
     }
 
@@ -94,7 +100,8 @@ impl Evaluated {
         constraint: &'a Constraint,
     ) -> impl Iterator<Item = (usize, &'a [f64; 6])> {
         let local = self.sides.iter().zip(self.local.as_slice().as_chunks().0);
-        let pair = local.filter_map(|(body, block)| Some(((*body)?, block)));
+        let pair = local.filter(|(body, _)| **body != GROUND);
+        let pair = pair.map(|(body, block)| (*body as usize, block));
         let function = self.jacobian.iter().enumerate();
         pair.chain(function.map(|(k, block)| (constraint.bodies[k], block)))
     }

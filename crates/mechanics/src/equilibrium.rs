@@ -286,9 +286,8 @@ impl Statics {
         system.set_solution(&self.zero, 1.0, multipliers);
         system.forces(multipliers, &mut self.right[..n]);
         for (row, &place) in system.rows.iter().enumerate() {
-            let level = system.constraints[place].level;
             let error = system.evaluated[place].error;
-            self.right[n + row] = if level == Level::Position {
+            self.right[n + row] = if system.levels[row] == Level::Position {
                 -error
             } else {
                 0.0

@@ -235,6 +235,8 @@ pub struct BodyFrame {
     pub velocity: Vector3<f64>,
     /// Angular velocity, ground axes.
     pub omega: Vector3<f64>,
+    /// Mass divided by the unit consistency factor.
+    pub mass: f64,
     /// Inertia about the centre of mass, ground axes.
     pub inertia: Matrix3<f64>,
 }
@@ -246,6 +248,7 @@ impl BodyFrame {
             rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
             velocity: Vector3::new(0.0, 0.0, 0.0),
             omega: Vector3::new(0.0, 0.0, 0.0),
+            mass: 0.0,
             inertia: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
         }
     }
@@ -256,6 +259,7 @@ impl BodyFrame {
         self.rotation = state.orientation(place).matrix();
         self.velocity = Vector3::from_column_slice(&u[..3]);
         self.omega = Vector3::from_column_slice(&u[3..]);
+        self.mass = body.mass;
         self.inertia = self.rotation * body.inertia * self.rotation.transpose();
     }
 }

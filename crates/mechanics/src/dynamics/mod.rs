@@ -429,10 +429,10 @@ impl Dynamics {
         self.set_bristles(step);
         self.shift.fill(0.0);
         self.predict_impulses(step, usage);
-        self.state.normalize();
         match self.present {
             Index::One | Index::StabilisedTwo => self.positions_from_velocities(step),
             Index::Three => {
+                self.state.normalize();
                 self.velocities_from_positions(step);
                 Ok(())
             }

@@ -41,8 +41,12 @@ impl Dynamics {
                 .mass_times(&self.past_rates, &mut self.past_inertia);
         }
         for k in 0..n {
-            let force = self.force[k] + lag * (self.past_force[k] + self.past_inertia[k]);
-            self.right[k] = gamma * force - inertia * self.momentum[k];
+            let past = if lag == 0.0 {
+                0.0
+            } else {
+                lag * (self.past_force[k] + self.past_inertia[k])
+            };
+            self.right[k] = gamma * (self.force[k] + past) - inertia * self.momentum[k];
         }
         if self.present == Index::One || self.system.prescribes_accelerations() {
             self.system.prescribe_accelerations(&mut self.prescribed);
@@ -51,7 +55,7 @@ impl Dynamics {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
             let of = |u: &[f64]| evaluated.rate_of(constraint, u);
-            self.right[n + row] = match (constraint.level, self.present) {
+            self.right[n + row] = match (self.system.levels[row], self.present) {
                 (Level::Acceleration, _) | (_, Index::One) => {
                     gamma * self.prescribed[row] - of(&self.change)
                 }

@@ -70,7 +70,7 @@ impl Dynamics {
             let evaluated = &self.system.evaluated[place];
             let constraint = &self.system.constraints[place];
             let moved = gamma * evaluated.rate_of(constraint, &self.right[..n]);
-            self.position_right[n + row] = if constraint.level == Level::Position {
+            self.position_right[n + row] = if self.system.levels[row] == Level::Position {
                 -evaluated.error - moved
             } else {
                 0.0

@@ -60,9 +60,10 @@ impl System {
     /// Writes, for every row, what the velocities lack of the rate that its constraint prescribes; zero
     /// where it prescribes accelerations only.
     pub(crate) fn velocity_lacks(&self, velocities: &[f64], lacks: &mut [f64]) {
-        for (lack, &place) in lacks.iter_mut().zip(&self.rows) {
+        let rows = self.rows.iter().zip(&self.levels);
+        for (lack, (&place, &level)) in lacks.iter_mut().zip(rows) {
             let (evaluated, constraint) = (&self.evaluated[place], &self.constraints[place]);
-            *lack = if constraint.level == Level::Acceleration {
+            *lack = if level == Level::Acceleration {
                 0.0
             } else {
                 evaluated.rate - evaluated.rate_of(constraint, velocities)

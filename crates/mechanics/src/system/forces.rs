@@ -11,11 +11,11 @@ impl System {
     /// `M w` in ground axes: mass and inertia times six numbers a body, then the differential states,
     /// whose mass is one, or zero where an implicit function determines the rate.
     pub(crate) fn mass_times(&self, w: &[f64], out: &mut [f64]) {
-        for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
+        for (place, frame) in self.bodies.iter().enumerate() {
             let w = &w[6 * place..6 * place + 6];
             let out = &mut out[6 * place..6 * place + 6];
             for k in 0..3 {
-                out[k] = body.mass * w[k];
+                out[k] = frame.mass * w[k];
             }
             let turn = frame.inertia * Vector3::new(w[3], w[4], w[5]);
             out[3..].copy_from_slice(turn.as_slice());
@@ -32,8 +32,8 @@ impl System {
     /// Sum of all forces `Q + f + Gᵀλ` at the state evaluated last, then the functions of the
     /// differential states.
     pub(crate) fn forces(&mut self, multipliers: &[f64], out: &mut [f64]) {
-        for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
-            let weight = body.mass * self.model.gravity;
+        for (place, frame) in self.bodies.iter().enumerate() {
+            let weight = frame.mass * self.model.gravity;
             let gyroscopic = -frame.omega.cross(&(frame.inertia * frame.omega));
             out[6 * place..6 * place + 3].copy_from_slice(weight.as_slice());
             out[6 * place + 3..6 * place + 6].copy_from_slice(gyroscopic.as_slice());

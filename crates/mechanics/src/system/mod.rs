@@ -46,7 +46,7 @@ use crate::expression::{Input, Program};
 use crate::force_element::{ForceElement, Side};
 use crate::joint_friction::{BristlePast, Contribution, Memory, Share, StepEnd};
 use crate::measure::Quantity;
-use crate::model::{Definition, Element, Model};
+use crate::model::{Definition, Element, Level, Model};
 use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
@@ -94,8 +94,10 @@ pub struct System {
     /// Constraints that are functions of the model.
     #[serde(skip)]
     functions: Vec<usize>,
-    /// Constraint of each row in force.
+    /// Constraint of each row in force, and its level.
     pub(crate) rows: Vec<usize>,
+    #[serde(skip)]
+    pub(crate) levels: Vec<Level>,
     /// Contributions to the reaction of each friction's joint.
     #[serde(skip)]
     reactions: Vec<Vec<Contribution>>,
@@ -203,7 +205,8 @@ impl System {
             acting,
             measure_bodies,
             rows: Vec::new(),
-            pairs: pairs::groups(&constraints),
+            levels: Vec::new(),
+            pairs: pairs::groups(&model, &constraints),
             needed,
             functions,
             reactions,
@@ -252,8 +255,10 @@ impl System {
         for constraint in &mut constraints {
             constraint.row = None;
         }
+        self.levels.clear();
         for (row, &place) in self.rows.iter().enumerate() {
             constraints[place].row = Some(row);
+            self.levels.push(constraints[place].level);
         }
         (self.model, self.constraints, self.pairs) = (model, constraints, pairs);
         (self.functions, self.reactions) = (functions, reactions);
@@ -332,11 +337,13 @@ impl System {
     /// Chooses the constraint equations in force, among those of active elements.
     pub(crate) fn set_active(&mut self, active: &[bool]) {
         self.rows.clear();
+        self.levels.clear();
         for (place, (constraint, &active)) in self.constraints.iter_mut().zip(active).enumerate() {
             let active = active && self.model.is_active(constraint.owner.element());
             constraint.row = active.then_some(self.rows.len());
             if active {
                 self.rows.push(place);
+                self.levels.push(constraint.level);
             }
         }
     }

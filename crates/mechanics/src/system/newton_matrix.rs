@@ -117,10 +117,10 @@ impl System {
     }
 
     fn assemble_bodies(&self, weights: Weights, w: &[f64], matrix: &mut Matrix) {
-        for (place, (body, frame)) in self.model.bodies.iter().zip(&self.bodies).enumerate() {
+        for (place, frame) in self.bodies.iter().enumerate() {
             let first = 6 * place;
             for k in 0..3 {
-                matrix.add(first + k, first + k, weights.mass * body.mass);
+                matrix.add(first + k, first + k, weights.mass * frame.mass);
             }
             let inertia = frame.inertia;
             // δ(I w) = δθ × I w − I (δθ × w), the turning of the inertia with the body.

@@ -8,7 +8,7 @@ use super::{Rows, System, Weights};
 use crate::constraint::{Constraint, Evaluated, Form, Owner};
 use crate::equation::{Axis, Equation, Local, Pair, Stiffness};
 use crate::expression::Input;
-use crate::model::Level;
+use crate::model::{Level, Model};
 use crate::scalar::Jet;
 
 /// Constraint equations that follow one another in the list and are between the same two markers.
@@ -16,10 +16,16 @@ use crate::scalar::Jet;
 pub(super) struct PairGroup {
     markers: [usize; 2],
     constraints: std::ops::Range<usize>,
+    /// Whether the bodies of the two markers turn: a point mass does not.
+    turns: [bool; 2],
 }
 
-/// The groups of a list of constraints.
-pub(super) fn groups(constraints: &[Constraint]) -> Vec<PairGroup> {
+/// The groups of a model's list of constraints.
+pub(super) fn groups(model: &Model, constraints: &[Constraint]) -> Vec<PairGroup> {
+    let turns = |marker: usize| {
+        let body = model.markers[marker].body;
+        body.is_none_or(|body| model.bodies[body].rotates)
+    };
     let mut groups: Vec<PairGroup> = Vec::new();
     for (place, constraint) in constraints.iter().enumerate() {
         let Form::Pair { i, j, .. } = constraint.form else {
@@ -30,6 +36,7 @@ pub(super) fn groups(constraints: &[Constraint]) -> Vec<PairGroup> {
             _ => groups.push(PairGroup {
                 markers: [i, j],
                 constraints: place..place + 1,
+                turns: [i, j].map(turns),
             }),
         }
     }
@@ -42,10 +49,9 @@ impl System {
         let PairGroup {
             markers: [i, j],
             constraints,
+            turns,
         } = self.pairs[group].clone();
         let pair = Pair::new(self.markers.get(i), self.markers.get(j));
-        let sides = [pair.i.body, pair.j.body];
-        let turns = sides.map(|body| body.is_none_or(|body| self.model.bodies[body].rotates));
         for place in constraints {
             let constraint = &self.constraints[place];
             let Form::Pair { equation, .. } = constraint.form else {
@@ -55,7 +61,7 @@ impl System {
             let value = equation.evaluate(&pair, &self.model.curves, &mut evaluated.local);
             for (side, turns) in turns.into_iter().enumerate() {
                 if !turns {
-                    // A point mass does not turn: its rotations take no part.
+                    // The rotations of a point mass take no part.
                     let mut rotations = evaluated.local.fixed_rows_mut::<3>(6 * side + 3);
                     rotations.fill(0.0);
                 }
@@ -93,6 +99,7 @@ impl System {
         for PairGroup {
             constraints,
             markers: [i, j],
+            ..
         } in &self.pairs
         {
             let pair = Pair::new(self.frame(*i), self.frame(*j));
@@ -116,6 +123,7 @@ impl System {
         for PairGroup {
             constraints,
             markers: [i, j],
+            ..
         } in &self.pairs
         {
             let (i, j) = (self.frame(*i), self.frame(*j));

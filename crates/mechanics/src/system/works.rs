@@ -2,6 +2,7 @@
 
 use super::System;
 use super::single_force::direction;
+use crate::constraint::Owner;
 use crate::equation::Pair;
 use crate::model::{Element, Level};
 
@@ -33,7 +34,10 @@ impl System {
         }
         powers[frictions] = forces;
         let mut motions = 0.0;
-        for (row, &place) in self.rows.iter().enumerate() {
+        // Joints come first, and do no work.
+        let of_joint = |&place: &usize| matches!(self.constraints[place].owner, Owner::Joint(_));
+        let joints = self.rows.partition_point(of_joint);
+        for (row, &place) in self.rows.iter().enumerate().skip(joints) {
             let (constraint, evaluated) = (&self.constraints[place], &self.evaluated[place]);
             // A motion that prescribes an acceleration has the velocity that has come of it.
             let rate = match constraint.level {
