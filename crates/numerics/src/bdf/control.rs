@@ -3,6 +3,18 @@
 use super::adams::error_integral;
 use super::{Bdf, Family, System};
 
+/// Error that shows that the past does not go on as its polynomial does: the step was chosen for a part of
+/// the tolerance.
+const BENT: f64 = 10.0;
+/// Power of the step that such an error is taken to fall with: that of velocities where forces kink is two,
+/// and more where they bend smoothly.
+const BEND_POWER: f64 = 3.0;
+/// The least power that two errors are taken to show. What falls by less is not the error of a bend, and
+/// steps by it would magnify rounding.
+const LEAST_POWER: f64 = 2.0;
+/// How much shorter a step becomes after it was rejected.
+const SHORTER: [f64; 2] = [0.05, 0.9];
+
 /// How step and order follow from the errors.
 #[derive(Clone, Copy)]
 struct Control {
@@ -35,6 +47,37 @@ impl Family {
     }
 }
 
+/// An attempt at a step that the error test has rejected.
+#[derive(Clone, Copy)]
+pub(super) struct Rejected {
+    pub(super) error: f64,
+    pub(super) size: f64,
+}
+
+impl Rejected {
+    /// Size of the next attempt, of the formula of order `k`.
+    ///
+    /// Where the solution bends within the step its error does not fall with the power `k + 1` of the
+    /// step, and a step chosen by that is rejected again and again. From the second attempt on the power
+    /// is that which the errors show (K. Gustafsson, *Control theoretic techniques for stepsize selection
+    /// in explicit Runge-Kutta methods*, ACM Transactions on Mathematical Software 17, 1991).
+    fn next_size(&self, before: Option<Self>, k: usize, margin: f64) -> f64 {
+        let smooth = (k + 1) as f64;
+        let power = match before {
+            Some(before) => {
+                let seen = (self.error / before.error).ln() / (self.size / before.size).ln();
+                seen.clamp(LEAST_POWER, smooth)
+            }
+            None if self.error > BENT => smooth.min(BEND_POWER),
+            None => smooth,
+        };
+        let [least, most] = SHORTER;
+        // Of what is not a number nothing is known but that the step is too long.
+        let shorter = (margin * self.error).powf(-1.0 / power).max(least);
+        self.size * shorter.min(most)
+    }
+}
+
 /// Error estimate at an order, and the step size that would just pass with a margin.
 #[derive(Clone, Copy)]
 pub(super) struct Estimate {
@@ -43,6 +86,16 @@ pub(super) struct Estimate {
 }
 
 impl Bdf {
+    /// Step and order for the attempt after one at the order `k`, where there was one `before`.
+    pub(super) fn shorten(&mut self, rejected: Rejected, before: Option<Rejected>, k: usize) {
+        self.starting = false;
+        if before.is_some() {
+            self.lower_order();
+        }
+        let margin = self.settings.family.control().margin;
+        self.size = rejected.next_size(before, k, margin);
+    }
+
     pub(super) fn lower_order(&mut self) {
         if self.order > 1 {
             self.order -= 1;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 use super::adams::integrals;
+use super::control::Rejected;
 use super::history::MOST_NODES;
 use super::{Family, History, Step, System, Verdict};
 
@@ -306,7 +307,7 @@ impl Bdf {
         let start = self.time();
         let remaining = stop - start;
         let mut failures = 0;
-        let mut rejections = 0;
+        let mut rejected = None;
         // Where the system wants the step to end.
         let mut end = None;
         loop {
@@ -354,18 +355,12 @@ impl Bdf {
             self.take_error(system, formula, time);
             let here = self.estimate(system, predictor, predictor, time, size);
             if !(here.error <= 1.0 || self.settings.untested) {
-                rejections += 1;
                 self.statistics.rejections += 1;
-                self.starting = false;
-                if rejections > 1 {
-                    self.lower_order();
-                }
-                let shrink = if here.error.is_finite() {
-                    here.size / size
-                } else {
-                    0.1
+                let attempt = Rejected {
+                    error: here.error,
+                    size,
                 };
-                self.size = size * shrink.clamp(0.1, 0.9);
+                self.shorten(attempt, rejected.replace(attempt), predictor);
                 if gives_up(size) {
                     self.values.evaluate(0, start, &mut self.value);
                     return Err(Error::Inaccurate { time: start, size });
