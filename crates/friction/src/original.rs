@@ -119,7 +119,8 @@ impl Original {
     /// let at_rest = law.evaluate(&[0.0], &[0.005]);
     /// assert!((at_rest.mu[0] + 0.237890625).abs() < 1e-15);
     /// ```
-    #[inline]
+    // Inlined, as all that evaluates laws: derivatives that the caller does not read cost nothing then.
+    #[inline(always)]
     pub fn evaluate<const N: usize>(
         &self,
         velocity: &[f64; N],
@@ -215,6 +216,7 @@ impl Original {
     }
 
     /// Magnitude that multiplies the direction, and its derivative by the speed.
+    #[inline]
     fn gain(&self, speed: f64) -> (f64, f64) {
         match self.effect {
             Effect::Stiction => (self.mu_static, 0.0),
@@ -250,6 +252,7 @@ struct Saturated<const N: usize> {
 }
 
 impl<const N: usize> Saturated<N> {
+    #[inline(always)]
     fn new(x: &[f64; N], scale: f64) -> Self {
         let (length, unit) = length_and_direction(x);
         let psi = odd_step(length / scale);
@@ -265,6 +268,7 @@ impl<const N: usize> Saturated<N> {
     }
 
     /// Derivative of component `i` of the value by component `j` of `x`.
+    #[inline]
     fn derivative(&self, i: usize, j: usize) -> f64 {
         self.across * delta(i, j) + (self.slope - self.across) * self.unit[i] * self.unit[j]
     }
@@ -281,6 +285,7 @@ struct Blend<const N: usize> {
 }
 
 impl<const N: usize> Blend<N> {
+    #[inline(always)]
     fn with_creep(velocity: Saturated<N>, creep: &Saturated<N>) -> Self {
         Self {
             direction: core::array::from_fn(|i| {
@@ -295,6 +300,7 @@ impl<const N: usize> Blend<N> {
         }
     }
 
+    #[inline(always)]
     fn without_creep(velocity: Saturated<N>) -> Self {
         Self {
             direction: velocity.value.map(|c| -c),

@@ -71,7 +71,7 @@ impl<const N: usize> Resultant<N> {
 
     /// Gives `part`, the components in `group`, the length `maximum` instead of `magnitude`. A clipped
     /// vector keeps its direction only: the part of a derivative along it is taken out.
-    #[cold]
+    #[inline(always)]
     fn shorten(&mut self, group: Range<usize>, part: &[f64; N], magnitude: f64, maximum: f64) {
         self.clipped = true;
         let unit = part.map(|c| c / magnitude);
@@ -147,7 +147,7 @@ impl<const N: usize> Resultant<N> {
 /// assert_eq!(friction.force, [13.0]); // limit 8 plus preload 5, against the motion
 /// assert!(friction.clipped);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn resultant<const N: usize>(
     c: &Coefficient<N>,
     load: f64,
@@ -173,7 +173,7 @@ pub fn resultant<const N: usize>(
 /// assert!((friction.force[0] + 12.0).abs() < 1e-13); // 0.2 * 100 * 3/5
 /// assert!((friction.force[1] - 0.8).abs() < 1e-13); // 0.05 * 0.2 * 100 * 4/5
 /// ```
-#[inline]
+#[inline(always)]
 pub fn cylindrical_resultant(
     c: &Coefficient<2>,
     load: f64,
@@ -201,7 +201,7 @@ pub fn cylindrical_resultant(
 /// let torque = bristle_resultant(&bristles, 0.05, 1e40).force[0];
 /// assert!((torque + 1.0).abs() < 1e-6); // 0.05 * 0.2 * 100
 /// ```
-#[inline]
+#[inline(always)]
 pub fn bristle_resultant<const N: usize>(
     bristles: &Bristles<N>,
     arm: f64,
@@ -231,7 +231,7 @@ pub fn bristle_resultant<const N: usize>(
 /// assert_eq!(friction.force[0], -10.0); // limited from 12
 /// assert!((friction.force[1] - 0.8).abs() < 1e-6);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn cylindrical_bristle_resultant(
     bristles: &Bristles<2>,
     pin_radius: f64,

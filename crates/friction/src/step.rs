@@ -32,6 +32,7 @@ pub struct Step {
 /// assert!((middle.value - 0.25).abs() < 1e-15);
 /// assert_eq!(step5(0.2, 0.1, 0.3, 0.15, 0.2).value, 0.2);
 /// ```
+#[inline]
 pub fn step5(x: f64, x0: f64, h0: f64, x1: f64, h1: f64) -> Step {
     if x <= x0 {
         return Step {
@@ -75,6 +76,7 @@ pub struct OddStep {
 /// assert_eq!(odd_step(0.5).value, 0.79296875);
 /// assert_eq!(odd_step(7.0).value, 1.0);
 /// ```
+#[inline]
 pub fn odd_step(s: f64) -> OddStep {
     if s >= 1.0 {
         return OddStep {

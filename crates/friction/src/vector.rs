@@ -40,7 +40,7 @@ pub(crate) fn length<const N: usize>(x: &[f64; N]) -> f64 {
 }
 
 /// Length and unit vector; the unit vector of zero is zero, which is a subgradient of the length.
-#[inline]
+#[inline(always)]
 pub(crate) fn length_and_direction<const N: usize>(x: &[f64; N]) -> (f64, [f64; N]) {
     let (length, inverse) = length_and_inverse(x);
     let unit = if N == 1 {
@@ -58,7 +58,7 @@ pub(crate) fn length_and_direction<const N: usize>(x: &[f64; N]) -> (f64, [f64; 
 
 /// Length, and its inverse where the length is an ordinary number. Others are scaled by the largest
 /// component, so that squares neither overflow nor vanish.
-#[inline]
+#[inline(always)]
 fn length_and_inverse<const N: usize>(x: &[f64; N]) -> (f64, Option<f64>) {
     if N == 1 {
         return (x[0].abs(), None);
@@ -78,7 +78,7 @@ fn length_and_inverse<const N: usize>(x: &[f64; N]) -> (f64, Option<f64>) {
 }
 
 /// Matrix from its entries by row and column.
-#[inline]
+#[inline(always)]
 pub(crate) fn matrix<const N: usize>(entry: impl Fn(usize, usize) -> f64) -> [[f64; N]; N] {
     let mut matrix = [[0.0; N]; N];
     for (i, row) in matrix.iter_mut().enumerate() {

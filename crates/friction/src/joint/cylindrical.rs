@@ -52,7 +52,7 @@ impl CylindricalLoad {
     /// let load = sleeve.evaluate([30.0, 40.0, 9.0], [6.0, 8.0, 7.0], 0.1);
     /// assert!((load.value - 75.0).abs() < 1e-13); // 50 + 10/0.4
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&self, force: [f64; 3], moment: [f64; 3], displacement: f64) -> Load {
         let guide = TranslationalLoad {
             inputs: Inputs {

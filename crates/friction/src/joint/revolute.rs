@@ -49,7 +49,7 @@ impl RevoluteLoad {
     /// let load = pin.evaluate([300.0, 400.0, -200.0], [30.0, 40.0, 7.0]);
     /// assert!((load.value - 66.0).abs() < 1e-13); // 25 + 16 + 25
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&self, force: [f64; 3], moment: [f64; 3]) -> Load {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let (radial, radial_unit) = length_and_direction(&[force[0], force[1]]);

@@ -45,7 +45,7 @@ impl SphericalLoad {
     /// let ball = SphericalLoad { inputs: Inputs::ALL, ball_radius: 0.02 };
     /// assert_eq!(ball.evaluate([60.0, 0.0, -80.0]).value, 2.0);
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&self, force: [f64; 3]) -> Load {
         let arm = if self.inputs.reaction_force {
             self.ball_radius

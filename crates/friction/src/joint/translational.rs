@@ -57,7 +57,7 @@ impl TranslationalLoad {
     /// let load = guide.evaluate([30.0, 40.0, 0.0], [6.0, 8.0, -3.0], 0.0);
     /// assert!((load.value - 140.0).abs() < 1e-13); // 50 + 1.5*10/0.25 + 3/0.1
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&self, force: [f64; 3], moment: [f64; 3], displacement: f64) -> Load {
         let on = |switch: bool| if switch { 1.0 } else { 0.0 };
         let least = SMALLEST_OVERLAP * self.initial_overlap;

@@ -276,6 +276,7 @@ struct Angular {
 }
 
 impl Angular {
+    #[inline]
     fn axes(pair: &Pair<'_>, k: usize, l: usize) -> Self {
         let (a, b) = (pair.i.axis(k), pair.j.axis(l));
         Self {

@@ -20,11 +20,13 @@ struct One<'a> {
 }
 
 impl Joining<1> for One<'_> {
+    #[inline(always)]
     fn original(&self, coefficient: &Coefficient<1>) -> Resultant<1> {
         let (preload, maximum) = self.limits();
         resultant(coefficient, self.load, preload, maximum)
     }
 
+    #[inline(always)]
     fn bristles(&self, bristles: &Bristles<1>) -> Resultant<1> {
         let (preload, maximum) = self.limits();
         bristle_resultant(bristles, self.friction.load.arm(), preload + maximum)
@@ -51,6 +53,7 @@ struct Both<'a> {
 }
 
 impl Joining<2> for Both<'_> {
+    #[inline(always)]
     fn original(&self, coefficient: &Coefficient<2>) -> Resultant<2> {
         let Friction {
             preload, maximum, ..
@@ -64,6 +67,7 @@ impl Joining<2> for Both<'_> {
         )
     }
 
+    #[inline(always)]
     fn bristles(&self, bristles: &Bristles<2>) -> Resultant<2> {
         let Friction {
             preload, maximum, ..
@@ -77,6 +81,7 @@ impl Joining<2> for Both<'_> {
 }
 
 /// Friction along or about the one freedom of a joint.
+#[inline(always)]
 pub(super) fn one(
     friction: &Friction,
     past: &Past<'_>,
@@ -94,6 +99,7 @@ pub(super) fn one(
 }
 
 /// Friction along and about the axis of a cylindrical joint.
+#[inline(always)]
 pub(super) fn cylindrical(
     friction: &Friction,
     past: &Past<'_>,
@@ -110,6 +116,7 @@ pub(super) fn cylindrical(
     evaluate(friction, past, equations, load, i, j, &joining, wanted)
 }
 
+#[inline(always)]
 fn evaluate<const N: usize>(
     friction: &Friction,
     past: &Past<'_>,
@@ -193,9 +200,13 @@ fn evaluate<const N: usize>(
             position_change += by_velocity[k][l] * velocity_by_position[l];
             position_change += by_slip[k][l] * arms[l] * rows[l];
         }
-        slopes.by_velocity += rows[k] * velocity_change.transpose();
-        slopes.by_position +=
-            force[k] * stiffnesses[k].matrix(&pair) + rows[k] * position_change.transpose();
+        let change = slopes.velocity * velocity_change + slopes.position * position_change;
+        let turning = slopes.position * force[k] * stiffnesses[k].matrix(&pair);
+        slopes.add_blocks(|row, column| {
+            let along = rows[k].fixed_rows::<3>(3 * row);
+            let change = change.fixed_rows::<3>(3 * column);
+            turning.fixed_view::<3, 3>(3 * row, 3 * column) + along * change.transpose()
+        });
     }
     for (column, slope) in load.by_reaction.iter().enumerate() {
         slopes

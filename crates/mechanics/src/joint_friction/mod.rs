@@ -123,52 +123,51 @@ impl Element {
 pub(crate) struct Slopes {
     /// By force and moment of the reaction along the axes of J (columns).
     pub(crate) by_reaction: SMatrix<f64, 12, 6>,
-    pub(crate) by_velocity: LocalMatrix,
-    pub(crate) by_position: LocalMatrix,
-    /// What [`Slopes::weigh`] makes of them.
+    /// By velocities and positions, with their weights, in the parts that `reach` connects.
     pub(crate) by_motion: LocalMatrix,
+    velocity: f64,
+    position: f64,
+    reach: Reach,
 }
 
 impl Slopes {
-    pub(crate) fn zero() -> Self {
+    /// None so far, with the weights of velocities and positions.
+    pub(crate) fn zero(velocity: f64, position: f64, reach: Reach) -> Self {
         Self {
             by_reaction: SMatrix::zeros(),
-            by_velocity: LocalMatrix::zeros(),
-            by_position: LocalMatrix::zeros(),
             by_motion: LocalMatrix::zeros(),
+            velocity,
+            position,
+            reach,
         }
     }
 
-    /// Sums up what the bodies' motions change, with these weights of velocities and positions, in the
-    /// parts that `reach` connects. The moment of the reaction changes with the rotation of I by
-    /// `moment_by_turn`, with that of J by the opposite.
-    pub(crate) fn weigh(
-        &mut self,
-        velocity: f64,
-        position: f64,
-        moment_by_turn: Option<Matrix3<f64>>,
-        reach: Reach,
-    ) {
+    /// Adds a block, three rows and columns from `3 row` and `3 column` on.
+    fn add(&mut self, [row, column]: [usize; 2], block: &Matrix3<f64>) {
+        let mut view = self.by_motion.fixed_view_mut::<3, 3>(3 * row, 3 * column);
+        view += block;
+    }
+
+    /// Adds what the block in every place that `reach` connects says.
+    fn add_blocks(&mut self, block: impl Fn(usize, usize) -> Matrix3<f64>) {
         for row in 0..4 {
-            let by_moment = self.by_reaction.fixed_view::<3, 3>(3 * row, 3);
-            let by_turn = moment_by_turn.map(|by_turn| by_moment * by_turn);
             for column in 0..4 {
-                if !reach.connects(row, column) {
-                    continue;
+                if self.reach.connects(row, column) {
+                    self.add([row, column], &block(row, column));
                 }
-                let place = (3 * row, 3 * column);
-                let part = |matrix: &LocalMatrix| -> Matrix3<f64> {
-                    matrix.fixed_view::<3, 3>(place.0, place.1).into_owned()
-                };
-                let by_position = part(&self.by_position);
-                let by_position = match (by_turn, column) {
-                    (Some(by_turn), 1) => by_position + by_turn,
-                    (Some(by_turn), 3) => by_position - by_turn,
-                    _ => by_position,
-                };
-                let sum = velocity * part(&self.by_velocity) + position * by_position;
-                let mut out = self.by_motion.fixed_view_mut::<3, 3>(place.0, place.1);
-                out.copy_from(&sum);
+            }
+        }
+    }
+
+    /// Adds what the moment of the reaction makes of the rotation of I by `moment_by_turn`, of that of J by
+    /// the opposite.
+    pub(crate) fn turn(&mut self, moment_by_turn: &Matrix3<f64>) {
+        let turned = self.position * (self.by_reaction.fixed_columns::<3>(3) * moment_by_turn);
+        for row in 0..4 {
+            for (column, sign) in [(1, 1.0), (3, -1.0)] {
+                if self.reach.connects(row, column) {
+                    self.add([row, column], &(sign * turned.fixed_rows::<3>(3 * row)));
+                }
             }
         }
     }
@@ -221,6 +220,8 @@ pub(crate) struct Wanted<'a> {
 }
 
 /// Friction for a reaction along the axes of J.
+// Inlined with all that it calls: a caller that wants the force alone must not pay for the derivatives.
+#[inline(always)]
 pub(crate) fn evaluate(
     friction: &Friction,
     past: &Past<'_>,
@@ -242,6 +243,7 @@ pub(crate) fn evaluate(
     }
 }
 
+#[inline(always)]
 fn load_at(
     friction: &Friction,
     memory: &Memory,
@@ -276,6 +278,7 @@ fn load_at(
 
 impl LoadAt {
     /// A load whose derivatives are along the axes of J.
+    #[inline(always)]
     fn along_j(load: Load, by_position: Local) -> Self {
         let ([fx, fy, fz], [mx, my, mz]) = (load.by_force, load.by_moment);
         Self {

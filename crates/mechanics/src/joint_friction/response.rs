@@ -33,6 +33,7 @@ pub(super) trait Joining<const N: usize> {
 
 /// Friction of `law` at the surfaces. `preload` is a force at the surfaces by component, `arms` turn
 /// forces at the surfaces into the components of the resultant.
+#[inline(always)]
 pub(super) fn respond<const N: usize>(
     friction: &Friction,
     past: &Past<'_>,

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::response::{Joining, respond};
 use super::{Element, LoadAt, Past, SurfaceVector, Values, Wanted};
-use crate::equation::{Local, LocalMatrix};
+use crate::equation::Local;
 use crate::model::Friction;
 use crate::rotation::{log, log_jacobian, skew};
 use crate::state::MarkerFrame;
@@ -18,6 +18,7 @@ struct Ball<'a> {
 }
 
 impl Joining<3> for Ball<'_> {
+    #[inline(always)]
     fn original(&self, coefficient: &Coefficient<3>) -> Resultant<3> {
         let Friction {
             preload, maximum, ..
@@ -25,6 +26,7 @@ impl Joining<3> for Ball<'_> {
         resultant(coefficient, self.load, preload.torque, maximum.torque)
     }
 
+    #[inline(always)]
     fn bristles(&self, bristles: &Bristles<3>) -> Resultant<3> {
         let Friction {
             preload, maximum, ..
@@ -34,6 +36,7 @@ impl Joining<3> for Ball<'_> {
     }
 }
 
+#[inline(always)]
 pub(super) fn evaluate(
     friction: &Friction,
     past: &Past<'_>,
@@ -140,14 +143,15 @@ pub(super) fn evaluate(
             let mut view = slopes.by_reaction.fixed_view_mut::<3, 1>(place, k);
             view.copy_from(&column);
         }
-        let put = |matrix: &mut LocalMatrix, column: usize, block: Matrix3<f64>| {
-            let mut view = matrix.fixed_view_mut::<3, 3>(place, column);
-            view.copy_from(&(sign * block));
-        };
-        put(&mut slopes.by_velocity, 3, by_omega);
-        put(&mut slopes.by_velocity, 9, -by_omega);
-        put(&mut slopes.by_position, 3, by_theta_i);
-        put(&mut slopes.by_position, 9, by_theta_j);
+        let (velocity, position) = (sign * slopes.velocity, sign * slopes.position);
+        slopes.add(
+            [place / 3, 1],
+            &(velocity * by_omega + position * by_theta_i),
+        );
+        slopes.add(
+            [place / 3, 3],
+            &(position * by_theta_j - velocity * by_omega),
+        );
     }
     element
 }

@@ -321,12 +321,15 @@ impl System {
     fn add_friction(&self, reading: &Reading, place: usize, multipliers: &[f64], row: &mut Row) {
         let p = reading.functional();
         let first = self.rate_count();
-        let weights = *row.weights;
-        let mut slopes = Slopes::zero();
+        let Weights {
+            velocity, position, ..
+        } = *row.weights;
+        let reach = self.model.frictions[place].load.reach();
+        let mut slopes = Slopes::zero(velocity, position, reach);
         let by_multiplier = |_: &[Option<usize>; 2], unknown, change: &Local| {
             row.add(first + unknown, p.dot(&change.fixed_rows::<6>(0)));
         };
-        let sides = self.friction_change(place, weights, multipliers, &mut slopes, by_multiplier);
+        let sides = self.friction_change(place, multipliers, &mut slopes, by_multiplier);
         if let Some(sides) = sides {
             self.add_local_row(&p, &sides, &slopes.by_motion, 1.0, row);
         }

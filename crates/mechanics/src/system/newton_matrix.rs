@@ -176,13 +176,9 @@ impl System {
         for place in 0..self.model.frictions.len() {
             let reach = self.model.frictions[place].load.reach();
             let first = if reach == Reach::Turns { 3 } else { 0 };
-            let mut slopes = Slopes::zero();
-            let sides = self.friction_change(
-                place,
-                weights,
-                multipliers,
-                &mut slopes,
-                |sides, unknown, change| {
+            let mut slopes = Slopes::zero(weights.velocity, weights.position, reach);
+            let sides =
+                self.friction_change(place, multipliers, &mut slopes, |sides, unknown, change| {
                     for (side, body) in sides.iter().enumerate() {
                         let Some(body) = *body else { continue };
                         for r in (first..6).step_by(3) {
@@ -190,22 +186,20 @@ impl System {
                             matrix.add_block::<3, 1>(6 * body + r, n + unknown, &column);
                         }
                     }
-                },
-            );
+                });
             if let Some(sides) = sides {
                 self.add_local_matrix(&sides, &slopes.by_motion, reach, -1.0, matrix);
             }
         }
     }
 
-    /// How the generalised forces of a friction on its two bodies change with their local motions,
-    /// weighted as the unknowns are (`by_motion` of `slopes`, which are zero), and (`by_multiplier`,
-    /// with the place of each) with the multipliers that it follows. Returns the bodies; `None` where the
+    /// How the generalised forces of a friction on its two bodies change with their local motions
+    /// (`by_motion` of `slopes`, which are zero), and (`by_multiplier`, with the place of each) with the
+    /// multipliers that it follows. Returns the bodies; `None` where the
     /// friction does not act.
     pub(super) fn friction_change(
         &self,
         place: usize,
-        weights: Weights,
         multipliers: &[f64],
         slopes: &mut Slopes,
         mut by_multiplier: impl FnMut(&[Option<usize>; 2], usize, &Local),
@@ -233,9 +227,9 @@ impl System {
                 by_multiplier(&sides, unknown, &(slope * change));
             });
         }
-        let by_turn = self.moment_change(place, i, j, multipliers);
-        let reach = self.model.frictions[place].load.reach();
-        slopes.weigh(weights.velocity, weights.position, by_turn, reach);
+        if let Some(by_turn) = self.moment_change(place, i, j, multipliers) {
+            slopes.turn(&by_turn);
+        }
         Some(sides)
     }
 

@@ -131,6 +131,7 @@ impl System {
     }
 
     /// Friction element `place`.
+    #[inline(always)]
     pub(crate) fn friction(&self, place: usize, multipliers: &[f64]) -> Element {
         self.evaluate_friction(place, multipliers, Wanted::default())
     }
@@ -146,6 +147,7 @@ impl System {
         values
     }
 
+    #[inline(always)]
     pub(super) fn evaluate_friction(
         &self,
         place: usize,
