@@ -162,10 +162,10 @@ fn adams_hands_over_to_index_three_and_takes_over_again() {
             "5 four-bars",
             mechanisms::four_bar_chain(5),
             82.0,
-            2e-6,
-            2e-4,
+            3e-6,
+            5e-5,
         ),
-        ("change point", change_point(), 60.0, 1e-6, 2e-5),
+        ("change point", change_point(), 60.0, 3e-6, 1e-4),
     ] {
         let settings = Settings {
             highest_order: 12,
