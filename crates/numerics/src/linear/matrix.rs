@@ -2,6 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Marks the first call to an entry in an assembly: what is there before is of another one.
+const FIRST: u32 = 1 << 31;
+
+/// Adds to the value in a slot, or begins it.
+fn add_to(values: &mut [f64], slot: u32, value: f64) {
+    let sum = &mut values[(slot & !FIRST) as usize];
+    let before = if slot & FIRST == 0 { *sum } else { 0.0 };
+    *sum = before + value;
+}
+
 /// Sparse square matrix, compressed by rows.
 ///
 /// Elements add their entries with [`Matrix::add`]. The first assembly records which entry each
@@ -25,7 +35,7 @@ pub struct Matrix {
     size: usize,
     /// Row and column of each call, in order; kept to check the order in debug builds.
     calls: Vec<(u32, u32)>,
-    /// Place in `values` that each call adds to.
+    /// Place in `values` that each call adds to, with [`FIRST`] where it is the first to do so.
     slots: Vec<u32>,
     next: usize,
     compressed: bool,
@@ -65,10 +75,9 @@ impl Matrix {
         self.compressed
     }
 
-    /// Begins an assembly: all values become zero.
+    /// Begins an assembly.
     pub fn start(&mut self) {
         self.next = 0;
-        self.values.fill(0.0);
         if !self.compressed {
             self.calls.clear();
             self.recorded.clear();
@@ -84,7 +93,7 @@ impl Matrix {
                 (row as u32, column as u32),
                 "an assembly must repeat the calls of the first one"
             );
-            self.values[self.slots[self.next] as usize] += value;
+            add_to(&mut self.values, self.slots[self.next], value);
         } else {
             self.calls.push((row as u32, column as u32));
             self.recorded.push(value);
@@ -110,7 +119,7 @@ impl Matrix {
         }
         let slots = &self.slots[self.next..self.next + R * C];
         for (&slot, value) in slots.iter().zip(block.as_flattened()) {
-            self.values[slot as usize] += value;
+            add_to(&mut self.values, slot, *value);
         }
         self.next += R * C;
     }
@@ -128,21 +137,26 @@ impl Matrix {
         let mut last = None;
         for k in order {
             let (row, column) = self.calls[k];
-            if last != Some((row, column)) {
+            let first = last != Some((row, column));
+            if first {
                 last = Some((row, column));
                 self.columns.push(column);
                 self.row_starts[row as usize + 1] += 1;
             }
-            self.slots[k] = (self.columns.len() - 1) as u32;
+            let mark = if first { FIRST } else { 0 };
+            self.slots[k] = (self.columns.len() - 1) as u32 | mark;
         }
         for row in 0..self.size {
             self.row_starts[row + 1] += self.row_starts[row];
         }
         self.values = vec![0.0; self.columns.len()];
         for (k, &slot) in self.slots.iter().enumerate() {
-            self.values[slot as usize] += self.recorded[k];
+            add_to(&mut self.values, slot, self.recorded[k]);
         }
         self.recorded = Vec::new();
+        if !cfg!(debug_assertions) {
+            self.calls = Vec::new();
+        }
         self.compressed = true;
     }
 
