@@ -31,6 +31,7 @@
 
 mod corrector;
 mod formulation;
+mod kept_axes;
 mod local_error;
 mod newton;
 mod positions;
@@ -52,6 +53,7 @@ use crate::system::System;
 pub use corrector::{Corrector, Pattern};
 pub use formulation::Formulation;
 pub(crate) use formulation::Index;
+use kept_axes::KeptAxes;
 use quadrature::Quadrature;
 pub(crate) use scales::Scales;
 use scales::raise;
@@ -162,6 +164,7 @@ pub(crate) struct Dynamics {
     position_right: Vec<f64>,
     matrix: Matrix,
     factors: FrontalLu,
+    kept_axes: KeptAxes,
     /// γ of the factored matrix, none before the first.
     factored: Option<f64>,
     /// Rate of convergence of the last iteration.
@@ -214,6 +217,7 @@ impl Dynamics {
             position_right: vec![0.0; size],
             matrix: Matrix::new(size),
             factors: FrontalLu::new(system.elimination_groups()),
+            kept_axes: KeptAxes::default(),
             factored: None,
             rate: 0.0,
             system,

@@ -116,6 +116,62 @@ fn jacobian_and_stiffness_match_differences() {
     }
 }
 
+/// The same markers, that of J where I is on it along `held` axes, and I at rest along them.
+fn held_frames(change: &Local, held: [bool; 3]) -> [MarkerFrame; 2] {
+    let [i, j] = frames(&Local::zeros());
+    let free = Pair::with_held(&i, &j, held);
+    let shift = free.between - free.slack;
+    let drift = Pair::new(&i, &j).drift();
+    let drift = drift - free.free(drift);
+    let [i, mut j] = frames(change);
+    let theta = change.fixed_rows::<3>(9).into_owned();
+    let shift = Quaternion::exp(&theta).matrix() * shift;
+    j.arm += shift;
+    j.origin += shift;
+    j.velocity += j.omega.cross(&shift) + drift;
+    [i, j]
+}
+
+#[test]
+fn derivatives_are_exact_where_displacements_are_held() {
+    let ends = [
+        Equation::Along(0),
+        Equation::Along(1),
+        Equation::Along(2),
+        Equation::Axes(2, 0),
+        Equation::Thread {
+            about: Axis::Z,
+            pitch: 3.0,
+            start: 0.4,
+        },
+    ];
+    for held in [[true; 3], [true, true, false], [false, false, true]] {
+        let [i, j] = held_frames(&Local::zeros(), held);
+        let pair = Pair::with_held(&i, &j, held);
+        assert!((pair.between - pair.slack).norm() < 1e-15);
+        let u = pair.velocities();
+        for equation in ends {
+            let at = |x: &Local| {
+                let [i, j] = held_frames(x, held);
+                evaluated(equation, &Pair::with_held(&i, &j, held), &[])
+            };
+            let jacobian = differences(|x| Local::repeat(at(x).0)).row(0).transpose();
+            assert!((jacobian - at(&Local::zeros()).1).norm() < 1e-8);
+            let stiffness = equation.stiffness(&pair, &[]);
+            let matrix = stiffness.matrix(&pair);
+            let error = (differences(|x| at(x).1) - matrix).norm();
+            assert!(error < 1e-8, "{equation:?} {held:?} {error}");
+            let change = matrix.transpose() * u;
+            assert!((stiffness.rate_change(&pair) - change).norm() < 1e-12);
+            let bias = change.dot(&u);
+            assert!(
+                (equation.bias(&pair, &[]) - bias).abs() < 1e-12,
+                "{equation:?} {held:?}"
+            );
+        }
+    }
+}
+
 /// The rates about both pins of a cross add up to the relative angular velocity.
 #[test]
 fn the_angles_about_two_pins_make_the_relative_rotation() {

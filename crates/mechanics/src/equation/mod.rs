@@ -19,8 +19,8 @@
 //!
 //! With a multiplier λ an equation applies to I the force and torque `λ ∂g/∂(δr_I, δθ_I)`, and to J
 //! `λ ∂g/∂(δr_J, δθ_J)`. The twelve local motions are `δr_I, δθ_I, δr_J, δθ_J`, rotations along
-//! ground axes. All derivatives are exact, also off the constraint; tests check them by
-//! differences.
+//! ground axes. All derivatives are exact, also off the constraint but for displacements that are held at
+//! zero ([`Pair`]); tests check them by differences.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ use std::f64::consts::TAU;
 mod equation_test;
 mod stiffness;
 
-use nalgebra::{ArrayStorage, SMatrix, SVector, Vector3};
+use nalgebra::{ArrayStorage, Matrix3, SMatrix, SVector, Vector3};
 
 use crate::curve::Curve;
 use crate::state::MarkerFrame;
@@ -132,25 +132,53 @@ impl Axis {
 }
 
 /// Two markers at an instant, and what the equations between them share.
+///
+/// Where equations hold `d` at zero along axes of J, its derivatives leave that part of `d` out: it is
+/// zero but for what an iteration leaves. With it equations in axes that turn differently are off by
+/// different parts of that, which positions where constraints depend on others (rods in line) magnify.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<'a> {
     pub(crate) i: &'a MarkerFrame,
     pub(crate) j: &'a MarkerFrame,
     /// `d`, from the origin of J to that of I.
     between: Vector3<f64>,
-    /// From the centre of mass of J's body to the origin of I, where the forces act.
+    /// The axes of J along which `d` is held at zero.
+    held: [bool; 3],
+    /// The part of `d` along the other ones.
+    slack: Vector3<f64>,
+    /// From the centre of mass of J's body to where the forces act on it.
     reach: Vector3<f64>,
 }
 
 impl<'a> Pair<'a> {
     pub(crate) fn new(i: &'a MarkerFrame, j: &'a MarkerFrame) -> Self {
+        Self::with_held(i, j, [false; 3])
+    }
+
+    /// With `d` held at zero along some axes of J.
+    pub(crate) fn with_held(i: &'a MarkerFrame, j: &'a MarkerFrame, held: [bool; 3]) -> Self {
         let between = i.origin - j.origin;
+        let slack = free_part(j, held, between);
         Self {
             i,
             j,
             between,
-            reach: j.arm + between,
+            held,
+            slack,
+            reach: j.arm + slack,
         }
+    }
+
+    /// The part of a vector along the axes of J that `d` is free along.
+    fn free(&self, vector: Vector3<f64>) -> Vector3<f64> {
+        free_part(self.j, self.held, vector)
+    }
+
+    /// The same as a matrix.
+    fn free_matrix(&self) -> Matrix3<f64> {
+        Matrix3::from_columns(&std::array::from_fn::<_, 3, _>(|k| {
+            self.free(Vector3::ith(k, 1.0))
+        }))
     }
 
     /// Velocities of both bodies in the order of the local motions.
@@ -171,7 +199,18 @@ impl<'a> Pair<'a> {
 
     /// Velocity of the origin of I against the body of J.
     fn drift(&self) -> Vector3<f64> {
-        self.i.velocity - self.j.velocity - self.j.omega.cross(&self.between)
+        self.i.velocity - self.j.velocity - self.j.omega.cross(&self.slack)
+    }
+}
+
+fn free_part(j: &MarkerFrame, held: [bool; 3], vector: Vector3<f64>) -> Vector3<f64> {
+    match held {
+        [false, false, false] => vector,
+        [true, true, true] => Vector3::zeros(),
+        held => (0..3)
+            .filter(|&k| !held[k])
+            .map(|k| j.axis(k) * j.axis(k).dot(&vector))
+            .sum(),
     }
 }
 
@@ -262,10 +301,10 @@ fn along(pair: &Pair<'_>, k: usize, jacobian: &mut Local) -> f64 {
 fn along_bias(pair: &Pair<'_>, k: usize) -> f64 {
     let (i, j) = (pair.i, pair.j);
     let a = j.axis(k);
-    let d_rate = i.velocity - j.velocity;
+    let slack_rate = pair.free(pair.drift()) + j.omega.cross(&pair.slack);
     let a_rate = j.omega.cross(&a);
     let d_bias = i.omega.cross(&i.omega.cross(&i.arm)) - j.omega.cross(&j.omega.cross(&j.arm));
-    a.dot(&d_bias) + 2.0 * a_rate.dot(&d_rate) + pair.between.dot(&j.omega.cross(&a_rate))
+    a.dot(&d_bias) + 2.0 * a_rate.dot(&slack_rate) + pair.slack.dot(&j.omega.cross(&a_rate))
 }
 
 /// A function of the rotation of I against J.

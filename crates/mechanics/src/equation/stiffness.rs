@@ -15,7 +15,7 @@ use crate::rotation::skew;
 /// The change of what equations apply, each with a multiplier, to the two bodies of a pair.
 #[derive(Clone, Debug)]
 pub(crate) struct Stiffness {
-    /// Force at the origin of I, which turns with J.
+    /// Force at the origin of I, on J where that is along the axes on which it is free; it turns with J.
     force: Vector3<f64>,
     /// Change of that force, seen from J, with the place of the origin of I there; ground axes.
     by_place: Option<Matrix3<f64>>,
@@ -145,9 +145,12 @@ impl Stiffness {
     pub(crate) fn rate_change(&self, pair: &Pair<'_>) -> Local {
         let (f, arm) = (self.force, pair.i.arm);
         let (turning, drift) = (pair.turning(), pair.drift());
-        let along = pair.j.omega.cross(&f);
-        let on_i = arm.cross(&f.cross(&turning)) + self.by_i.tr_mul(&turning);
-        let on_j = f.cross(&drift) + self.by_j.tr_mul(&turning);
+        let turned = pair.j.omega.cross(&f);
+        // What the part of the displacement that is held adds is zero.
+        let along = pair.free(turned);
+        let held = along - turned;
+        let on_i = arm.cross(&(f.cross(&turning) + held)) + self.by_i.tr_mul(&turning);
+        let on_j = f.cross(&drift) - pair.reach.cross(&held) + self.by_j.tr_mul(&turning);
         let mut change = parts(&along, &on_i, &-along, &on_j);
         if let Some(bend) = &self.by_place {
             let f = bend * drift;
@@ -168,14 +171,22 @@ impl Stiffness {
         let by_i = turned + self.by_i;
         let by_j = self.by_j - turned.transpose();
         let f = skew(&self.force);
+        // Where the force acts on J follows I along the axes on which that is free.
+        let followed = f * pair.free_matrix();
+        let held = followed - f;
+        let reach = skew(&pair.reach);
         add(0, 3, &-f);
         add(1, 1, &by_i);
         add(1, 3, &by_j);
         add(2, 3, &f);
-        add(3, 0, &f);
-        add(3, 1, &-by_i);
-        add(3, 2, &-f);
-        add(3, 3, &(twice_across(&pair.reach, &self.force) - self.by_j));
+        add(3, 0, &followed);
+        add(3, 1, &(-by_i - held * skew(&pair.i.arm)));
+        add(3, 2, &-followed);
+        add(
+            3,
+            3,
+            &(twice_across(&pair.reach, &self.force) + held * reach - self.by_j),
+        );
         if let Some(bend) = &self.by_place {
             // δ(o_I − o_J) seen from J = δr_I − ρ× δθ_I − δr_J + c× δθ_J, and so the force acts.
             let one = Matrix3::identity();

@@ -64,7 +64,7 @@ impl System {
     }
 
     /// Frame of a marker that the equations read.
-    pub(super) fn frame(&self, marker: usize) -> &MarkerFrame {
+    pub(crate) fn frame(&self, marker: usize) -> &MarkerFrame {
         self.markers.get(marker)
     }
 }

@@ -1,6 +1,8 @@
 //! The equations between two markers, evaluated and differentiated together: those of a joint share
 //! the frames of its markers, and their stiffnesses are one.
 
+#[cfg(test)]
+use nalgebra::Vector3;
 use numerics::linear::Matrix;
 
 use super::evaluation::nearest_turn;
@@ -43,6 +45,37 @@ pub(super) fn groups(model: &Model, constraints: &[Constraint]) -> Vec<PairGroup
     groups
 }
 
+/// Axis of J and row of an equation in force, if it is of some kind.
+type AxisRow = fn(&Constraint) -> Option<(usize, usize)>;
+
+/// Axis of J and row of an equation in force that is about the displacement along it.
+fn along_row(constraint: &Constraint) -> Option<(usize, usize)> {
+    match (constraint.form, constraint.row) {
+        (
+            Form::Pair {
+                equation: Equation::Along(k),
+                ..
+            },
+            Some(row),
+        ) => Some((k, row)),
+        _ => None,
+    }
+}
+
+/// Axis of J and row of an equation in force that keeps z of I perpendicular to it.
+fn parallel_row(constraint: &Constraint) -> Option<(usize, usize)> {
+    match (constraint.form, constraint.row) {
+        (
+            Form::Pair {
+                equation: Equation::Axes(2, k @ 0..2),
+                ..
+            },
+            Some(row),
+        ) => Some((k, row)),
+        _ => None,
+    }
+}
+
 impl System {
     /// Brings the equations of a group up to date with the bodies.
     pub(super) fn evaluate_pairs(&mut self, group: usize) {
@@ -51,7 +84,8 @@ impl System {
             constraints,
             turns,
         } = self.pairs[group].clone();
-        let pair = Pair::new(self.markers.get(i), self.markers.get(j));
+        let held = self.held(&constraints);
+        let pair = Pair::with_held(self.markers.get(i), self.markers.get(j), held);
         for place in constraints {
             let constraint = &self.constraints[place];
             let Form::Pair { equation, .. } = constraint.form else {
@@ -84,6 +118,53 @@ impl System {
         }
     }
 
+    /// The axes of J along which equations in force of a group hold the displacement of I at zero.
+    fn held(&self, constraints: &std::ops::Range<usize>) -> [bool; 3] {
+        let mut held = [false; 3];
+        for constraint in &self.constraints[constraints.clone()] {
+            if let (Owner::Joint(_), Some((k, _))) = (constraint.owner, along_row(constraint)) {
+                held[k] = true;
+            }
+        }
+        held
+    }
+
+    /// Moves markers J to where equations hold those of I, as bodies stand.
+    #[cfg(test)]
+    pub(crate) fn join_markers(&mut self) {
+        for group in 0..self.pairs.len() {
+            let PairGroup {
+                markers: [i, j],
+                constraints,
+                ..
+            } = self.pairs[group].clone();
+            let (frame, held) = (self.frame(j), self.held(&constraints));
+            let apart = frame.axes.tr_mul(&(self.frame(i).origin - frame.origin));
+            let apart = Vector3::from_fn(|k, _| if held[k] { apart[k] } else { 0.0 });
+            let marker = &mut self.model.markers[j];
+            marker.offset += marker.axes * apart;
+        }
+    }
+
+    /// Marker J of each joint that has several equations along its axes, and their rows by axis:
+    /// those of displacements, and those that keep z parallel.
+    pub(crate) fn axis_rows(&self) -> impl Iterator<Item = (usize, [Option<usize>; 3])> {
+        let kinds: [AxisRow; 2] = [along_row, parallel_row];
+        let all = self.pairs.iter().flat_map(move |group| {
+            let constraints = &self.constraints[group.constraints.clone()];
+            kinds.map(|kind| {
+                let mut rows = [None; 3];
+                let joints = constraints.iter();
+                let joints = joints.filter(|c| matches!(c.owner, Owner::Joint(_)));
+                for (k, row) in joints.filter_map(kind) {
+                    rows[k] = Some(row);
+                }
+                (group.markers[1], rows)
+            })
+        });
+        all.filter(|(_, rows)| rows.iter().flatten().count() > 1)
+    }
+
     /// Whether an equation prescribes accelerations, and nothing else.
     pub(crate) fn prescribes_accelerations(&self) -> bool {
         let mut motions = self.model.motions.iter();
@@ -102,7 +183,8 @@ impl System {
             ..
         } in &self.pairs
         {
-            let pair = Pair::new(self.frame(*i), self.frame(*j));
+            let held = self.held(constraints);
+            let pair = Pair::with_held(self.frame(*i), self.frame(*j), held);
             for constraint in &self.constraints[constraints.clone()] {
                 if let (Form::Pair { equation, .. }, Some(row)) = (constraint.form, constraint.row)
                 {
@@ -127,7 +209,7 @@ impl System {
         } in &self.pairs
         {
             let (i, j) = (self.frame(*i), self.frame(*j));
-            let pair = Pair::new(i, j);
+            let pair = Pair::with_held(i, j, self.held(constraints));
             let mut stiffness = Stiffness::none();
             let mut reach = None;
             for place in constraints.clone() {

@@ -122,6 +122,9 @@ impl Dynamics {
         for (right, lower) in self.right.iter_mut().zip(&self.position_right) {
             *right = (*right - lower) * time / step.gamma;
         }
+        let n = self.system.rate_count();
+        self.kept_axes
+            .bring_back(&self.system, &mut self.right[n..]);
         self.factors.solve(&mut self.right);
         self.position_right.fill(0.0);
         if known {

@@ -15,6 +15,11 @@ use mechanisms::{bristles, driven_slider_crank, four_bar, law, slider_crank};
 
 /// Turning points of the crank (body 0) that starts at `start`, and its last angle.
 fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {
+    crank_at(model, start, end, 1e-9)
+}
+
+/// The same at an ERROR.
+fn crank_at(model: Model, start: f64, end: f64, error: f64) -> (Vec<(f64, f64)>, f64) {
     let mut samples = Vec::new();
     let mut angle = start;
     let mut last = 0.0;
@@ -22,7 +27,7 @@ fn crank(model: Model, start: f64, end: f64) -> (Vec<(f64, f64)>, f64) {
     run(
         model,
         &outputs,
-        &settings(Formulation::Si2, 1e-9, 0.01),
+        &settings(Formulation::Si2, error, 0.01),
         |s| {
             let m = s.rotation(0);
             let now: f64 = m[(1, 0)].atan2(m[(0, 0)]);
@@ -219,7 +224,7 @@ fn slider_crank_with_bristles_in_its_guide() {
     let Some(file) = reference("validation/data/C01_C02_mechanisms.json") else {
         return;
     };
-    let first_turn = |stiffness: f64| {
+    let first_turn = |stiffness: f64, error: f64| {
         let bristles = LuGre {
             bristle_stiffness: stiffness,
             damping: 100.0,
@@ -227,7 +232,7 @@ fn slider_crank_with_bristles_in_its_guide() {
         };
         let mut model = slider_crank(Some(law(0.25, 0.2, 1e-2, 1e-4)));
         model.frictions[0].law = bristles.into();
-        crank(model, 0.5, 1.1).0[0]
+        crank_at(model, 0.5, 1.1, error).0[0]
     };
     let at = |key: &str| number(&file, &format!("/cases/C01a_slider_only/turning/0/{key}"));
     let case = Case {
@@ -237,8 +242,9 @@ fn slider_crank_with_bristles_in_its_guide() {
         source: SOURCE,
         covers: &lugre(JointType::Translational, &["INPUTS"]),
     };
-    let turns = HALVINGS.map(|h| first_turn(1e5 / h));
-    let stiff = first_turn(1e9);
+    let turns = HALVINGS.map(|h| first_turn(1e5 / h, 1e-9));
+    // Below this ERROR a third of the runs on bristles so stiff are off by up to 7e-5.
+    let stiff = first_turn(1e9, 1e-8);
     let soft = "the bristles give way by 1/s0";
     let rigid = "what is left of vs";
     check(&[
@@ -272,5 +278,5 @@ fn slider_crank_with_bristles_in_its_guide() {
         ),
     ]);
     // Soft bristles let it swing: no reference, but no failure.
-    assert!(first_turn(1e2).1 < at("theta"));
+    assert!(first_turn(1e2, 1e-9).1 < at("theta"));
 }
