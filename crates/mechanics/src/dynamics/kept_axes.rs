@@ -13,49 +13,69 @@ use crate::system::System;
 
 /// The axes, joint by joint.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct KeptAxes(Vec<JointAxes>);
+pub(super) struct KeptAxes {
+    joints: Vec<JointAxes>,
+    /// Whether the axes have turned since.
+    turned: bool,
+}
 
-/// Rows along the axes of a marker, and how these were.
+/// Rows along the axes of a marker.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct JointAxes {
     marker: usize,
     rows: [Option<usize>; 3],
+    /// The axes as they were.
     axes: Matrix3<f64>,
+    /// Axes of now in those.
+    turn: Matrix3<f64>,
 }
 
 impl KeptAxes {
-    /// Remembers the axes as they were evaluated last.
+    /// Remembers the axes as they were evaluated last, with which a matrix is made.
     pub(super) fn keep(&mut self, system: &System) {
-        self.0.clear();
+        self.joints.clear();
         let joints = system.axis_rows();
-        self.0.extend(joints.map(|(marker, rows)| JointAxes {
+        self.joints.extend(joints.map(|(marker, rows)| JointAxes {
             marker,
             rows,
             axes: system.frame(marker).axes,
+            turn: Matrix3::identity(),
         }));
+        self.turned = false;
+    }
+
+    /// Takes the axes of now from what was evaluated last.
+    pub(super) fn follow(&mut self, system: &System) {
+        for joint in &mut self.joints {
+            joint.turn = joint.axes.tr_mul(&system.frame(joint.marker).axes);
+        }
+        self.turned = true;
     }
 
     /// Brings what the equations lack, row by row, into the axes of the matrix.
-    pub(super) fn bring_back(&self, system: &System, lacks: &mut [f64]) {
-        for joint in &self.0 {
-            let turn = joint.axes.tr_mul(&system.frame(joint.marker).axes);
-            joint.turn(&turn, lacks);
+    pub(super) fn bring_back(&self, lacks: &mut [f64]) {
+        if self.turned {
+            for joint in &self.joints {
+                joint.change(lacks, |lacks| joint.turn * lacks);
+            }
         }
     }
 
-    /// Brings multipliers from the axes of the matrix into those evaluated last.
-    pub(super) fn bring_forth(&self, system: &System, multipliers: &mut [f64]) {
-        for joint in &self.0 {
-            let turn = system.frame(joint.marker).axes.tr_mul(&joint.axes);
-            joint.turn(&turn, multipliers);
+    /// Brings multipliers from the axes of the matrix into those of now.
+    pub(super) fn bring_forth(&self, multipliers: &mut [f64]) {
+        if self.turned {
+            for joint in &self.joints {
+                joint.change(multipliers, |multipliers| joint.turn.tr_mul(&multipliers));
+            }
         }
     }
 }
 
 impl JointAxes {
-    fn turn(&self, turn: &Matrix3<f64>, values: &mut [f64]) {
+    #[inline]
+    fn change(&self, values: &mut [f64], turned: impl Fn(Vector3<f64>) -> Vector3<f64>) {
         let old = self.rows.map(|row| row.map_or(0.0, |row| values[row]));
-        let new = turn * Vector3::from(old);
+        let new = turned(Vector3::from(old));
         for (row, value) in self.rows.iter().zip(&new) {
             if let Some(row) = *row {
                 values[row] = *value;

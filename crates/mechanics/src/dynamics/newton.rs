@@ -174,12 +174,12 @@ impl Dynamics {
                 factored.map_err(|singular| self.system.without_solution(singular))?;
                 self.factored = Some(gamma);
                 self.kept_axes.keep(&self.system);
+            } else {
+                self.kept_axes.follow(&self.system);
             }
-            self.kept_axes
-                .bring_back(&self.system, &mut self.right[n..]);
+            self.kept_axes.bring_back(&mut self.right[n..]);
             self.factors.solve(&mut self.right);
-            self.kept_axes
-                .bring_forth(&self.system, &mut self.right[n..]);
+            self.kept_axes.bring_forth(&mut self.right[n..]);
             for (impulse, change) in self.impulses.iter_mut().zip(&self.right[n..]) {
                 *impulse += change;
             }

@@ -76,8 +76,7 @@ impl Dynamics {
                 0.0
             };
         }
-        self.kept_axes
-            .bring_back(&self.system, &mut self.position_right[n..]);
+        self.kept_axes.bring_back(&mut self.position_right[n..]);
         self.factors.solve(&mut self.position_right);
     }
 }

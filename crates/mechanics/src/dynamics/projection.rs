@@ -19,8 +19,9 @@ impl Dynamics {
         }
         self.system
             .velocity_lacks(self.state.velocities(), &mut self.right[n..]);
+        self.kept_axes.follow(&self.system);
         for right in [&mut self.right, &mut self.position_right] {
-            self.kept_axes.bring_back(&self.system, &mut right[n..]);
+            self.kept_axes.bring_back(&mut right[n..]);
         }
         self.factors
             .solve_two(&mut self.right, &mut self.position_right);

@@ -45,29 +45,12 @@ pub(super) fn groups(model: &Model, constraints: &[Constraint]) -> Vec<PairGroup
     groups
 }
 
-/// Axis of J and row of an equation in force, if it is of some kind.
-type AxisRow = fn(&Constraint) -> Option<(usize, usize)>;
-
 /// Axis of J and row of an equation in force that is about the displacement along it.
 fn along_row(constraint: &Constraint) -> Option<(usize, usize)> {
     match (constraint.form, constraint.row) {
         (
             Form::Pair {
                 equation: Equation::Along(k),
-                ..
-            },
-            Some(row),
-        ) => Some((k, row)),
-        _ => None,
-    }
-}
-
-/// Axis of J and row of an equation in force that keeps z of I perpendicular to it.
-fn parallel_row(constraint: &Constraint) -> Option<(usize, usize)> {
-    match (constraint.form, constraint.row) {
-        (
-            Form::Pair {
-                equation: Equation::Axes(2, k @ 0..2),
                 ..
             },
             Some(row),
@@ -146,21 +129,19 @@ impl System {
         }
     }
 
-    /// Marker J of each joint that has several equations along its axes, and their rows by axis:
-    /// those of displacements, and those that keep z parallel.
+    /// Marker J, if it turns, of each joint that has several equations about displacements along its axes,
+    /// and their rows by axis.
     pub(crate) fn axis_rows(&self) -> impl Iterator<Item = (usize, [Option<usize>; 3])> {
-        let kinds: [AxisRow; 2] = [along_row, parallel_row];
-        let all = self.pairs.iter().flat_map(move |group| {
-            let constraints = &self.constraints[group.constraints.clone()];
-            kinds.map(|kind| {
-                let mut rows = [None; 3];
-                let joints = constraints.iter();
-                let joints = joints.filter(|c| matches!(c.owner, Owner::Joint(_)));
-                for (k, row) in joints.filter_map(kind) {
+        let turning = |group: &&PairGroup| self.model.markers[group.markers[1]].body.is_some();
+        let all = self.pairs.iter().filter(turning).map(|group| {
+            let mut rows = [None; 3];
+            for constraint in &self.constraints[group.constraints.clone()] {
+                if let (Owner::Joint(_), Some((k, row))) = (constraint.owner, along_row(constraint))
+                {
                     rows[k] = Some(row);
                 }
-                (group.markers[1], rows)
-            })
+            }
+            (group.markers[1], rows)
         });
         all.filter(|(_, rows)| rows.iter().flatten().count() > 1)
     }

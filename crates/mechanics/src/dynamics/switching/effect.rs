@@ -123,8 +123,8 @@ impl Dynamics {
             *right = (*right - lower) * time / step.gamma;
         }
         let n = self.system.rate_count();
-        self.kept_axes
-            .bring_back(&self.system, &mut self.right[n..]);
+        self.kept_axes.follow(&self.system);
+        self.kept_axes.bring_back(&mut self.right[n..]);
         self.factors.solve(&mut self.right);
         self.position_right.fill(0.0);
         if known {
