@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::system::System;
 
 /// The axes, joint by joint.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct KeptAxes {
     joints: Vec<JointAxes>,
     /// Whether the axes have turned since.
@@ -31,16 +31,25 @@ struct JointAxes {
 }
 
 impl KeptAxes {
-    /// Remembers the axes as they were evaluated last, with which a matrix is made.
-    pub(super) fn keep(&mut self, system: &System) {
-        self.joints.clear();
-        let joints = system.axis_rows();
-        self.joints.extend(joints.map(|(marker, rows)| JointAxes {
+    /// Of the joints of a system, before there is a matrix.
+    pub(super) fn of(system: &System) -> Self {
+        let joints = system.axis_rows().map(|(marker, rows)| JointAxes {
             marker,
             rows,
-            axes: system.frame(marker).axes,
+            axes: Matrix3::identity(),
             turn: Matrix3::identity(),
-        }));
+        });
+        Self {
+            joints: joints.collect(),
+            turned: false,
+        }
+    }
+
+    /// Remembers the axes as they were evaluated last, with which a matrix is made.
+    pub(super) fn keep(&mut self, system: &System) {
+        for joint in &mut self.joints {
+            joint.axes = system.frame(joint.marker).axes;
+        }
         self.turned = false;
     }
 

@@ -217,7 +217,7 @@ impl Dynamics {
             position_right: vec![0.0; size],
             matrix: Matrix::new(size),
             factors: FrontalLu::new(system.elimination_groups()),
-            kept_axes: KeptAxes::default(),
+            kept_axes: KeptAxes::of(&system),
             factored: None,
             rate: 0.0,
             system,
@@ -237,6 +237,7 @@ impl Dynamics {
     /// Takes over the equations and history of `system`; its numbering must be that of before.
     pub(crate) fn start(&mut self, system: &System, formulation: Formulation, scales: Scales) {
         self.system.clone_from(system);
+        self.kept_axes = KeptAxes::of(&self.system);
         self.switching.start(&mut self.system);
         self.previous.clone_from(&system.history.frictions);
         self.formulation = formulation;
