@@ -337,24 +337,6 @@ impl FrictionJoint {
         matches!(self, Self::Translational(_) | Self::Cylindrical(_))
     }
 
-    /// Whether the load follows the force of the reaction, and whether its moment.
-    pub(crate) fn reads(&self) -> [bool; 2] {
-        match self {
-            Self::Translational(load) => {
-                let inputs = &load.inputs;
-                [
-                    inputs.reaction_force,
-                    inputs.bending_moment || inputs.torsional_moment,
-                ]
-            }
-            Self::Revolute(load) | Self::Pin(_, load) => {
-                [load.inputs.reaction_force, load.inputs.bending_moment]
-            }
-            Self::Cylindrical(load) => [load.inputs.reaction_force, load.inputs.bending_moment],
-            Self::Spherical(load) => [load.inputs.reaction_force, false],
-        }
-    }
-
     /// Number of components of surface velocity, creep and bristle deflection.
     #[must_use]
     pub fn components(&self) -> usize {

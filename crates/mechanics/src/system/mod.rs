@@ -46,7 +46,7 @@ use crate::expression::{Input, Program};
 use crate::force_element::{ForceElement, Side};
 use crate::joint_friction::{BristlePast, Contribution, Memory, Share, StepEnd};
 use crate::measure::Quantity;
-use crate::model::{Definition, Element, Friction, Level, Model};
+use crate::model::{Definition, Element, Level, Model};
 use crate::scalar::Jet;
 use crate::state::{BodyFrame, MarkerFrame};
 use inputs::Inputs;
@@ -98,7 +98,7 @@ pub struct System {
     pub(crate) rows: Vec<usize>,
     #[serde(skip)]
     pub(crate) levels: Vec<Level>,
-    /// What the load of each friction reads of the reaction of its joint.
+    /// Contributions to the reaction of each friction's joint.
     #[serde(skip)]
     reactions: Vec<Vec<Contribution>>,
     /// Frictions where they were taken last.
@@ -144,7 +144,7 @@ impl System {
         let reactions = model
             .frictions
             .iter()
-            .map(|friction| reaction_of(&constraints, friction))
+            .map(|friction| reaction_of(&constraints, friction.joint))
             .collect();
         let bodies = vec![BodyFrame::at_rest(); model.bodies.len()];
         let mut needed = vec![false; model.measures.len()];
@@ -503,23 +503,16 @@ fn element_functions(model: &Model) -> impl Iterator<Item = &Program> {
     states.chain(algebraics.filter_map(|variable| variable.definition.function()))
 }
 
-/// What the load of a friction reads of the reaction of its joint.
-fn reaction_of(constraints: &[Constraint], friction: &Friction) -> Vec<Contribution> {
-    let [force, moment] = friction.load.reads();
-    places_of(constraints, Owner::Joint(friction.joint))
+fn reaction_of(constraints: &[Constraint], joint: usize) -> Vec<Contribution> {
+    places_of(constraints, Owner::Joint(joint))
         .filter_map(|constraint| {
             let share = match constraints[constraint].form {
                 Form::Pair {
                     equation: Equation::Along(axis),
                     ..
-                } if force => Share::Force(axis),
-                Form::Pair {
-                    equation: Equation::Along(_),
-                    ..
-                }
-                | Form::Function => return None,
-                Form::Pair { .. } if moment => Share::Moment,
-                Form::Pair { .. } => return None,
+                } => Share::Force(axis),
+                Form::Pair { .. } => Share::Moment,
+                Form::Function => return None,
             };
             Some(Contribution { constraint, share })
         })
